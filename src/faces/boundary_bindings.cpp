@@ -15,7 +15,7 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<LoopFigures> : RowOf<double, 3> {};
+struct Row<LoopFigures> : RowOf<double, 4> {};
 namespace {
 
 using Ids = Vector<std::int64_t>;
@@ -212,8 +212,8 @@ void bind_figures(nb::module_& m) {
             return std::pair(view(figures), view(first));
         },
         nb::arg("boundaries"),
-        "Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes "
-        "(l, 3); and where those of each boundary begin.");
+        "Of the loops of many boundaries: segments, length of the polygon, sum of the finite sizes "
+        "and their number (l, 4); and where those of each boundary begin.");
 }
 
 void bind_shared_sides(nb::module_& m) {

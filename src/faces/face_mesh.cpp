@@ -26,7 +26,7 @@ bool is_box(const PlaneBox& box) {
 
 /// Sizes that grow from the nodes of the edges. Places are in the scaled plane.
 GrownTree grown_inward(const FaceBoundary& b, const PlaneBox& box, const InwardGrowth& growth,
-                       Point2 extent) {
+                       Point2 extent, Fineness fineness) {
     Array<Point2> place;
     place.reserve(b.uv.size());
     for (const Point2 uv : b.uv) {
@@ -40,7 +40,7 @@ GrownTree grown_inward(const FaceBoundary& b, const PlaneBox& box, const InwardG
                           1.0,
                           growth.slope,
                           growth.largest};
-    return grow_sizes(sources, {{0.0, 0.0}, extent});
+    return grow_sizes(sources, {{0.0, 0.0}, extent}, fineness);
 }
 
 bool are_sizes(const FaceBoundary& b) {
@@ -57,12 +57,12 @@ struct InwardField {
 };
 
 /// Nothing where there is no box, no positive sizes, or more cells than are allowed.
-std::optional<InwardField> field_inward(const InwardFace& face) {
+std::optional<InwardField> field_inward(const InwardFace& face, Fineness fineness) {
     const FaceBoundary& boundary = *face.boundary;
     const PlaneBox box = boundary.box();
     if (!is_box(box) || !are_sizes(boundary)) return {};
     Chart chart = uniform_chart(box, face.growth.speeds);
-    GrownTree grown = grown_inward(boundary, box, face.growth, chart.extent());
+    GrownTree grown = grown_inward(boundary, box, face.growth, chart.extent(), fineness);
     if (grown.status != TreeStatus::grown) return {};
     return InwardField{box, std::move(chart), std::move(grown.background)};
 }
@@ -167,7 +167,7 @@ FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks) {
     };
     if (face.look_for_tubes && may_have_tubes(*face.surface, boundary))
         return ended(FaceEnd::tubes);
-    const std::optional<InwardField> field = field_inward(face);
+    const std::optional<InwardField> field = field_inward(face, Fineness::for_mesh);
     if (!field) return ended(FaceEnd::unprepared);
     const SurfaceOverBox over(*face.surface, {field->box.low, field->box.high});
     return mesh_face({over, field->chart, field->background}, polygons_of(boundary), face.manner,
@@ -175,14 +175,14 @@ FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks) {
 }
 
 double metric_area_inward(const InwardFace& face) {
-    const std::optional<InwardField> field = field_inward(face);
+    const std::optional<InwardField> field = field_inward(face, Fineness::for_estimate);
     if (!field) return std::numeric_limits<double>::quiet_NaN();
     const FacePolygons polygons = polygons_of(*face.boundary);
     const Array<Point2> xy = field->chart.to_plane({polygons.uv.data(), polygons.uv.size()});
     Array<std::int64_t> first(1, 0);
     for (const std::int32_t length : polygons.lengths) first.push_back(first.back() + length);
-    return metric_area_within(field->background,
-                              {{xy.data(), xy.size()}, {first.data(), first.size()}});
+    return metric_area_within(
+        field->background, {{xy.data(), xy.size()}, {first.data(), first.size()}}, Between::sizes);
 }
 
 }  // namespace surfmesh

@@ -6,9 +6,10 @@
 namespace surfmesh {
 
 struct LoopFigures {
-    double nodes;   // rows of its boundary, the ends of coedges twice
+    double segments;
     double length;  // of the polygon in space
-    double sizes;   // sum of those that are finite
+    double sizes;   // sum of those that are finite, the ends of coedges twice
+    double sized;   // how many these are
 };
 
 /// Of the loops of a boundary, in their order.

@@ -129,7 +129,7 @@ struct CellBlock {
 
 class AreaSum {
   public:
-    explicit AreaSum(const Background& background) : b_(background) {}
+    AreaSum(const Background& background, Between between) : b_(background), between_(between) {}
 
     /// Over what lies in the block and within the loops, which do not leave it.
     double within(const CellBlock& block, const CutLoops& loops) const {
@@ -232,20 +232,27 @@ class AreaSum {
     /// det A at a place of a leaf, both coordinates from 0 to 1.
     [[nodiscard]] double density(const CellBlock& block, Point2 at) const {
         const CellCorners& corner = b_.corner[block.first];
+        const std::array<double, 4> weight{(1.0 - at.x) * (1.0 - at.y), at.x * (1.0 - at.y),
+                                           (1.0 - at.x) * at.y, at.x * at.y};
         SizeTensor a{0.0, 0.0, 0.0};
-        for (int k = 0; k < 4; ++k) {
-            const double w = (k % 2 != 0 ? at.x : 1.0 - at.x) * (k > 1 ? at.y : 1.0 - at.y);
-            a = a + w * b_.metric_root[corner.node[k]].metric_root;
+        double size = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto& [root, inverse] = b_.metric_root[corner.node[k]];
+            if (between_ == Between::roots)
+                a = a + weight[k] * root;
+            else
+                size += weight[k] / inverse;
         }
-        return determinant(a);
+        return between_ == Between::roots ? determinant(a) : 1.0 / (size * size);
     }
 
     const Background& b_;
+    Between between_;
 };
 
 }  // namespace
 
-double metric_area_within(const Background& b, const PlaneLoops& loops) {
+double metric_area_within(const Background& b, const PlaneLoops& loops, Between between) {
     const Point2 low{b.box.x0, b.box.y0};
     const Point2 high{low.x + b.grid.nx / b.box.across, low.y + b.grid.ny / b.box.up};
     CutLoops cut = directed(loops);
@@ -253,7 +260,7 @@ double metric_area_within(const Background& b, const PlaneLoops& loops) {
         cut = halves(cut, axis, low.*axis, 0.0).second;
         cut = halves(cut, axis, high.*axis, 0.0).first;
     }
-    return AreaSum(b).within({0, b.grid.nx, b.grid.ny, {low, high}}, cut);
+    return AreaSum(b, between).within({0, b.grid.nx, b.grid.ny, {low, high}}, cut);
 }
 
 }  // namespace surfmesh

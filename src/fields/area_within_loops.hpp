@@ -14,7 +14,12 @@
 
 namespace surfmesh {
 
+/// What is linear between the nodes of a leaf: A, as meshes have it, or the size, which is as exact
+/// in larger leaves where it grows by the distance and H is a multiple of the identity.
+enum class Between { roots, sizes };
+
 /// Corners are finite, or the result is no number.
-[[nodiscard]] double metric_area_within(const Background& background, const PlaneLoops& loops);
+[[nodiscard]] double metric_area_within(const Background& background, const PlaneLoops& loops,
+                                        Between between = Between::roots);
 
 }  // namespace surfmesh

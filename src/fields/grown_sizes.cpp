@@ -21,7 +21,7 @@ std::int32_t cells_along(double length, double step) {
 
 }  // namespace
 
-GrownTree grow_sizes(const Sources& sources, const PlaneBox& box) {
+GrownTree grow_sizes(const Sources& sources, const PlaneBox& box, Fineness fineness) {
     const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
     const double wide = std::sqrt(sources.e) * width, high = std::sqrt(sources.g) * height;
     const auto active =
@@ -38,7 +38,7 @@ GrownTree grow_sizes(const Sources& sources, const PlaneBox& box) {
     const RootCells roots{
         box.low.x,  box.low.y,  step / std::sqrt(sources.e), step / std::sqrt(sources.g),
         box.high.x, box.high.y, cells_along(wide, step),     cells_along(high, step)};
-    return grow_tree(sources, roots, REACH * std::max(width, height), MOST_SOURCE_CELLS);
+    return grow_tree(sources, roots, REACH * std::max(width, height), MOST_SOURCE_CELLS, fineness);
 }
 
 }  // namespace surfmesh

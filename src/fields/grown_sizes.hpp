@@ -17,6 +17,7 @@ struct PlaneBox {
 };
 
 /// What lies beyond the box's upper and right sides may be covered too.
-[[nodiscard]] GrownTree grow_sizes(const Sources& sources, const PlaneBox& box);
+[[nodiscard]] GrownTree grow_sizes(const Sources& sources, const PlaneBox& box,
+                                   Fineness fineness = Fineness::for_mesh);
 
 }  // namespace surfmesh

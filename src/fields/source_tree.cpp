@@ -18,6 +18,8 @@ constexpr double NEAR_SOURCE = 0.06;
 // Cells narrower than this many sizes are not split, however steep the growth.
 constexpr double FINEST_AT_SOURCE = 0.25, FINEST = 0.5;
 
+constexpr double ROUGHER = 2.0;  // factor on all of these for an estimate
+
 constexpr std::uint64_t NO_KEY = std::numeric_limits<std::uint64_t>::max();
 
 /// Place of a cell or a node, and how often a root cell was split down to it.
@@ -44,14 +46,19 @@ struct AtMiddle {
 
 class SourceTree {
   public:
-    SourceTree(const Sources& sources, const RootCells& roots, std::int64_t most_cells)
-        : sources_(sources), roots_(roots), most_cells_(most_cells) {}
+    SourceTree(const Sources& sources, const RootCells& roots, std::int64_t most_cells,
+               Fineness fineness)
+        : sources_(sources),
+          roots_(roots),
+          most_cells_(most_cells),
+          is_rough_(fineness == Fineness::for_estimate),
+          allowed_(is_rough_ ? ROUGHER : 1.0) {}
 
     [[nodiscard]] bool grow() {
         for (std::int32_t row = 0; row < roots_.ny; ++row)
             for (std::int32_t column = 0; column < roots_.nx; ++column)
                 add_cell({column << DEEPEST, row << DEEPEST, 0});
-        if (!walk(true) || !balance()) return false;
+        if (!walk(true) || (!is_rough_ && !balance())) return false;
         corner_.resize(child_.size());
         clear_nodes();
         return walk(false);
@@ -133,6 +140,8 @@ class SourceTree {
     Sources sources_;
     RootCells roots_;
     std::int64_t most_cells_;
+    bool is_rough_;
+    double allowed_;  // factor on what cells are held to
     Array<Cell> child_;
     Array<Place> place_;  // lower left corners
     Array<CellCorners> corner_;
@@ -239,11 +248,12 @@ bool SourceTree::is_coarse(Cell cell, Listed from, const AtMiddle& at) const {
     for (std::size_t k = from.first + 1; k < from.last; ++k)
         smallest = std::min(smallest, sources_.size[listed_[k]]);
     const double low = std::max(at.size - rise, smallest);
-    if (std::min(at.size + rise, sources_.largest) <= low * (1.0 + EVEN)) return false;
+    if (std::min(at.size + rise, sources_.largest) <= low * (1.0 + allowed_ * EVEN)) return false;
     const double width = std::max(std::sqrt(sources_.e) * step.x, std::sqrt(sources_.g) * step.y);
     double error = 0.18 * at.turn + 0.5 * rise / at.size;
     error += 0.18 * (width < 2.0 * at.distance ? width / at.distance : 2.0);
-    if (width > FINEST * at.size && rise * error > ALLOWED * at.size) return true;
+    if (width > allowed_ * FINEST * at.size && rise * error > allowed_ * ALLOWED * at.size)
+        return true;
     return holds_small_source(cell, from, width, rise);
 }
 
@@ -254,7 +264,7 @@ bool SourceTree::holds_small_source(Cell cell, Listed from, double width, double
     for (std::size_t k = from.first; k < from.last; ++k) {
         const std::int32_t s = listed_[k];
         const double size = sources_.size[s];
-        if (width > FINEST_AT_SOURCE * size && rise > NEAR_SOURCE * size) {
+        if (width > allowed_ * FINEST_AT_SOURCE * size && rise > allowed_ * NEAR_SOURCE * size) {
             const Point2 d = sources_.place[s] - p;
             if (std::abs(d.x) <= half_wide && std::abs(d.y) <= half_high) return true;
         }
@@ -355,8 +365,8 @@ NodeSize SourceTree::stored(double size) const {
 }  // namespace
 
 GrownTree grow_tree(const Sources& sources, const RootCells& roots, double largest,
-                    std::int64_t most_cells) {
-    SourceTree tree(sources, roots, most_cells);
+                    std::int64_t most_cells, Fineness fineness) {
+    SourceTree tree(sources, roots, most_cells, fineness);
     if (!tree.grow()) return {TreeStatus::too_many_cells, {}};
     return {TreeStatus::grown, std::move(tree).background(largest)};
 }

@@ -42,6 +42,9 @@ struct RootCells {
     std::int32_t nx, ny;
 };
 
+/// An estimate does with cells twice as rough, and with neighbours of any size.
+enum class Fineness { for_mesh, for_estimate };
+
 enum class TreeStatus {
     grown,
     too_many_cells  // more than were allowed: the background is empty
@@ -54,6 +57,6 @@ struct GrownTree {
 
 /// `largest`: size in the plane above which none counts, of the background.
 [[nodiscard]] GrownTree grow_tree(const Sources& sources, const RootCells& roots, double largest,
-                                  std::int64_t most_cells);
+                                  std::int64_t most_cells, Fineness fineness);
 
 }  // namespace surfmesh

@@ -100,9 +100,9 @@ def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), 
     uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
     """
 
-def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 4))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
-    Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
+    Of the loops of many boundaries: segments, length of the polygon, sum of the finite sizes and their number (l, 4); and where those of each boundary begin.
     """
 
 def has_crowded_side(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], shared: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:

@@ -8,7 +8,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,13 +16,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import model_arrays, rows_of
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_nodes import CutEdges, cut_edges
+from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
+from surfmesh.meshing.estimate.face_counts import FaceCounts, Outlines
 from surfmesh.meshing.estimate.least_counts import least_of_model
 from surfmesh.meshing.estimate.model_estimate import (
+    Bends,
     FaceFields,
     is_foreseen,
     model_counts,
@@ -75,7 +79,7 @@ MAX_VOLUME_ROUNDS = 4
 def mesh_model(
     model: CadModel, sizing: Any, optimise: bool = True, progress: Progress | None = None,
     strict: bool = True, simplify: bool = False, workers: FaceWorkers | None = None,
-    rounds: int = MAX_ROUNDS,
+    rounds: int = MAX_ROUNDS, samples: EdgeSamples | None = None,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
@@ -84,6 +88,7 @@ def mesh_model(
     the diagonal, at the end. workers: who meshes the faces; the mesh is the same with any number
     of them.
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
+    samples: of the edges at these sizes, where they are known already.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     if strict:
@@ -91,7 +96,7 @@ def mesh_model(
     watch, workers = Stopwatch(progress), workers or FaceWorkers()
     if watch.counts_work:  # which ends at the same face everywhere
         workers = replace(workers, at_once=1)
-    how = _How(optimise, strict, workers, rounds, watch)
+    how = _How(optimise, strict, workers, rounds, watch, samples)
     asked = model_sizing(model, sizing)
     if asked.base.is_balanced:
         return _balanced(model, asked, how, simplify)
@@ -106,7 +111,7 @@ def _with_volumes(model: CadModel, asked: ModelSizing, how: _How) -> SurfaceMesh
     def one_round(by_solid: Mapping[int, float]) -> tuple[SurfaceMesh, dict[int, float]]:
         with how.watch.stage("sizing"):
             wanted = _with_model_rules(model, asked, by_solid)
-        mesh = _Rounds(model, wanted, how).mesh()
+        mesh = _Rounds(model, wanted, replace(how, samples=None) if by_solid else how).mesh()
         return mesh, aims.lowered_after(mesh, by_solid)
 
     return refined_in_rounds(one_round, lambda lower, _: lower, MAX_VOLUME_ROUNDS)
@@ -171,6 +176,8 @@ class _How:
     workers: FaceWorkers
     rounds: int
     watch: Stopwatch
+    samples: EdgeSamples | None = None
+    """Of the edges, where they are known before."""
 
 
 class _Rounds:
@@ -180,7 +187,7 @@ class _Rounds:
         self.model, self.wanted, self.how, self.watch = model, wanted, how, how.watch
         with self.watch.stage("sizing"):
             with allowed_threads(how.workers.threads):
-                self.samples = sample_edges(model, wanted)
+                self.samples = how.samples or sample_edges(model, wanted)
             self.faces = face_states(model, self.samples, wanted)
             self.opposite = opposite_pairs(model, self.samples)
         self.nodes = CutEdges()
@@ -301,20 +308,23 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
-    small, foreseen, counts = before.bound <= FEW, False, np.empty(0)
+    sizings = [state.sizing for state in before.faces]
+    small, foreseen, found = before.bound <= (whole if stretched else FEW), False, None
     if not small:
-        counts = model_counts(model, before.jobs, fields)
-        foreseen = is_foreseen(before.jobs, model.diagonal, counts)
-        small = counts.sum() <= (FEW if foreseen else whole)
+        found, outlines = before.counts(fields)
+        foreseen = is_foreseen(sizings, found.counts, outlines.fewest, before.bends)
+        small = found.counts.sum() <= (FEW if foreseen else whole)
     if small:
+        samples = before.samples if stretched else None  # else there are too few
         made = counts_within_budget(lambda budget: mesh_model(
-            model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
+            model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS, samples=samples
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)
-        counts = counts if len(counts) else model_counts(model, before.jobs, fields)
-    if not foreseen or any(_follows_curvature(state.sizing) for state in before.faces):
-        counts = counts * ratios(before.jobs, counts, fields)
+    found = found or before.counts(fields)[0]
+    counts = found.counts
+    if not foreseen or any(map(_follows_curvature, sizings)):
+        counts = counts * ratios(before.jobs, found, before.refined, fields)
     return Estimate.of(counts, stretched, True, least)
 
 
@@ -337,7 +347,8 @@ def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation
     before = _Unmeshed(model, sizing)
     from surfmesh.meshing.explain.explanation import explain_model
 
-    return explain_model(model, before.wanted, before.samples, before.jobs, point)
+    jobs = before.refined(range(len(model.faces)))
+    return explain_model(model, before.wanted, before.samples, jobs, point)
 
 
 def _with_model_rules(
@@ -360,27 +371,45 @@ class _Unmeshed:
         self.samples = sample_edges(model, self.wanted, few)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
-        self.bound = quick_bound(model, nodes, [state.sizing for state in self.faces])
+        sizings = [state.sizing for state in self.faces]
+        self.bends = Bends.of(model, sizings)
+        self.bound = quick_bound(model, nodes, sizings, self.bends)
         """Triangles at most, roughly."""
-        self._first_nodes = nodes
-
-    @property
-    def nodes(self) -> CutEdges:
-        """Of the edges that ``jobs`` are made with."""
-        return self._cut[0]
-
-    @property
-    def jobs(self) -> list[FaceJob]:
-        """What the faces are meshed from in the first round, or in the second where sizes depend
-        on the direction: long edges are cut again then, and many of them."""
-        return self._cut[1]
+        self.nodes = nodes
+        """Of the edges, as they are cut in the first round."""
+        self._asked: dict[int, SizeLimits | None] = {}
+        self._refined: dict[int, FaceJob] = {}
 
     @cached_property
-    def _cut(self) -> tuple[CutEdges, list[FaceJob]]:
-        model, nodes = self.model, self._first_nodes
-        jobs = face_jobs(model, self.faces, nodes)
+    def jobs(self) -> list[FaceJob]:
+        """What the faces are meshed from in the first round."""
+        return face_jobs(self.model, self.faces, self.nodes)
+
+    def refined(self, numbers: Sequence[int]) -> list[FaceJob]:
+        """What some faces are meshed from in the second round, where sizes depend on the direction:
+        long edges are cut again then, and many of them. Else in the first."""
         if not self.wanted.is_anisotropic:
-            return nodes, jobs
-        limits = {k: more for k, job in enumerate(jobs) if (more := edge_refinement(job))}
-        nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
-        return nodes, face_jobs(model, self.faces, nodes, limits)
+            return [self.jobs[number] for number in numbers]
+        new = sorted(set(numbers) - self._refined.keys())
+        if new:
+            limits = self._asked_around(new)
+            nodes = cut_edges(self.model, self.wanted.base, self.samples, limits, self.nodes)
+            made = face_jobs(self.model, [self.faces[k] for k in new], nodes, limits)
+            self._refined.update(zip(new, made))
+        return [self._refined[number] for number in numbers]
+
+    def counts(self, fields: FaceFields) -> tuple[FaceCounts, Outlines]:
+        """Triangles of the faces, by a closer look at some of them."""
+        outlines = Outlines.of(self.jobs)
+        return model_counts(self.model, self.jobs, outlines, self.refined, fields), outlines
+
+    def _asked_around(self, numbers: list[int]) -> dict[int, SizeLimits]:
+        """What some faces and their neighbours ask of their edges, see ``edge_refinement``."""
+        arrays = model_arrays(self.model)
+        edges = arrays.coedge_edge[rows_of(arrays.first_of_face, np.array(numbers))]
+        near = np.unique(arrays.coedge_face[np.isin(arrays.coedge_edge, edges)]).tolist()
+        for number in near:
+            if number not in self._asked:
+                self._asked[number] = edge_refinement(self.jobs[number])
+        asked = {number: self._asked[number] for number in near}
+        return {number: more for number, more in asked.items() if more}

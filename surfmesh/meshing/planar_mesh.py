@@ -24,6 +24,7 @@ from surfmesh.meshing.boundary.planar_segments import (
 from surfmesh.meshing.estimate.estimation import (
     Estimate,
     combined,
+    fewest_triangles,
     field_triangles,
     require_field_within,
     require_within,
@@ -114,7 +115,7 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     if cut is None:
         return Estimate.of([_asked(domain, field)])
     loops = [*domain.outer, *domain.holes]
-    asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
+    asked = _combined(field, loops, len(cut.uv))
     if asked <= WHOLE:
         made = counts_within_budget(lambda budget: mesh_planar(domain, sizing, progress=budget))
         if made is not None:
@@ -126,7 +127,12 @@ def _asked(domain: PlanarDomain, field: SizeField) -> float:
     """Triangles, before a segment is cut."""
     loops = [*domain.outer, *domain.holes]
     nodes = min(metric_length(domain.graph, field), COUNTABLE)
-    return combined(field_triangles(field, loops), int(nodes), len(loops))
+    return _combined(field, loops, int(nodes))
+
+
+def _combined(field: SizeField, loops: list[np.ndarray], nodes: int) -> float:
+    fewest = fewest_triangles(nodes, len(loops))
+    return float(combined(np.float64(field_triangles(field, loops)), np.float64(fewest)))
 
 
 def _is_suspicious(domain: PlanarDomain, field: SizeField) -> bool:

@@ -12,6 +12,8 @@ from the left side of the (u, v) box, by Gauss's rule.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
@@ -99,10 +101,14 @@ def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
     return moment / total if total else moment
 
 
+@cache
 def cell_centres(count: int) -> np.ndarray:
-    """Centres (n, 2) of count x count cells of the unit square, row after row."""
+    """Centres (n, 2) of count x count cells of the unit square, row after row; not to be written
+    to."""
     at = (np.arange(count) + 0.5) / count
-    return np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+    found = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+    found.flags.writeable = False
+    return found
 
 
 def inner_samples(face: CadFace, count: int) -> np.ndarray:

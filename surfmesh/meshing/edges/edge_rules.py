@@ -27,6 +27,10 @@ NARROWEST = 5e-4
 """Gaps narrower and edges shorter than this fraction of the diagonal do not ask for still smaller
 sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
+TOGETHER = 128
+"""Coedges that are looked at together where sizes depend on the direction: memory for all would be
+too much."""
+
 SPARED = 1.4
 """Of ``min_size``: shorter segments are not cut because they sag."""
 
@@ -269,12 +273,15 @@ class EdgeRules:
     def _directed(
         self, rules: SizeRules, courses: Courses, coedges: np.ndarray
     ) -> Iterator[Demand]:
-        """The same where sizes depend on the direction."""
+        """The same where sizes depend on the direction, of so many coedges at a time."""
         arrays = self.arrays
-        for coedge in coedges.tolist():
-            of = np.searchsorted(courses.edges, arrays.coedge_edge[coedge])
-            at = slice(courses.first[of], courses.first[of + 1])
-            face = self.model.faces[arrays.coedge_face[coedge]]
-            uv = arrays.coedges[coedge].uv(courses.fraction[at])
-            sizes = size_along(face.surface, uv, courses.tangent[at], rules)
-            yield Demand(None, np.arange(at.start, at.stop), sizes, np.full(len(uv), coedge))
+        for start in range(0, len(coedges), TOGETHER):
+            some = coedges[start : start + TOGETHER]
+            of = np.searchsorted(courses.edges, arrays.coedge_edge[some])
+            count = courses.first[of + 1] - courses.first[of]
+            first, rows = offsets(count), rows_of(courses.first, of)
+            places = arrays.pcurves.points(some, first, courses.fraction[rows])[:, :2]
+            uv = np.split(np.ascontiguousarray(places), first[1:-1])
+            surfaces = [self.model.faces[face].surface for face in arrays.coedge_face[some]]
+            sizes = size_along(surfaces, uv, courses.tangent[rows], rules)
+            yield Demand(None, rows, sizes, np.repeat(some, count))

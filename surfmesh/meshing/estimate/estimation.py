@@ -15,7 +15,6 @@ import mmap
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -89,7 +88,7 @@ class Estimate:
         least: float | None = None,
     ) -> Estimate:  # fmt: skip
         """stretched: sizes depend on the direction. least: ``least_triangles``."""
-        counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
+        counts = tuple(np.rint(np.fmin(by_face, COUNTABLE)).astype(np.int64).tolist())
         total, most = sum(counts), max(counts, default=0)
         loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
         bytes_each = MODEL_RESULT if model else RESULT
@@ -101,10 +100,10 @@ class Estimate:
 def _resident() -> int:
     """Bytes that this process has now, its models among them; 0 where the system does not say."""
     try:
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        with open("/proc/self/statm", "rb", buffering=0) as figures:
+            return int(figures.read(256).split()[1]) * mmap.PAGESIZE
     except (OSError, ValueError, IndexError):
         return 0
-    return pages * mmap.PAGESIZE
 
 
 def size_in_words(count: float) -> str:
@@ -121,16 +120,19 @@ def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None)
     return TRIANGLES * metric_area(field, loops)
 
 
-def combined(inside: float, nodes: int, loops: int) -> float:
-    """Triangles within loops, of those that the area asks for and of the nodes on the loops.
+def fewest_triangles(nodes: int, loops: int) -> int:
+    """Within loops of so many nodes when none lies inside, by Euler's formula."""
+    return nodes + 2 * loops - 4
 
-    With no node inside, Euler's formula counts them.
-    """
-    boundary = max(nodes - 2 + 2 * (loops - 1), 1)
-    larger = max(inside, boundary)
-    if not larger < COUNTABLE:
-        return COUNTABLE
-    return larger * ((inside / larger) ** SHARP + (boundary / larger) ** SHARP) ** (1.0 / SHARP)
+
+def combined(inside: np.ndarray, fewest: np.ndarray) -> np.ndarray:
+    """Triangles (f,) of faces: of those (f,) that the area asks for, and of the fewest (f,) that
+    the loops allow."""
+    least = np.maximum(fewest, 1.0)
+    larger = np.minimum(np.maximum(inside, least), COUNTABLE)
+    shares = np.minimum(inside / larger, 1.0), np.minimum(least / larger, 1.0)
+    found = larger * (shares[0] ** SHARP + shares[1] ** SHARP) ** (1.0 / SHARP)
+    return np.where(larger < COUNTABLE, found, COUNTABLE)
 
 
 def _counted(triangles: int) -> str:

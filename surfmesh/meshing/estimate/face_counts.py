@@ -10,8 +10,9 @@ holds a quantile of all triangles; planes and curved faces are two populations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from surfmesh._core.faces import loop_figures
 from surfmesh.meshing.estimate.estimation import combined
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.metric_area import TRIANGLES
+from surfmesh.sizing.options.sizing import Sizing
 
 CLASSES = 32
 """Of each population all are looked at closely up to so many, so many of more than that."""
@@ -27,12 +29,61 @@ DIGITS = 6
 """To which alike faces agree in lengths, areas and sizes."""
 
 
+class Outlines(NamedTuple):
+    """What the loops of faces say of them."""
+
+    segments: np.ndarray
+    """(f,) of all loops of each face."""
+    loops: np.ndarray
+    """(f,) how many it has."""
+    size: np.ndarray
+    """(f,) mean of the sizes at the nodes; infinite where there are none."""
+    alike: tuple[bytes, ...]
+    """Of the loops of each face in one order: how many segments, how long, and the sum of the
+    sizes there, rounded, as bytes that are the same where these are."""
+
+    @classmethod
+    def of(cls, jobs: Sequence[FaceJob]) -> Self:
+        if not jobs:
+            return cls(np.empty(0), np.empty(0, int), np.empty(0), ())
+        figures, first = loop_figures([job.boundary for job in jobs])
+        loops = np.diff(first)
+        face = np.repeat(np.arange(len(jobs)), loops)
+        segments, _, sizes, sized = (
+            np.bincount(face, weights=column, minlength=len(jobs)) for column in figures.T
+        )
+        rows = np.column_stack([figures[:, 0], _rounded(figures[:, 1:3])])
+        rows = rows[np.lexsort((*rows.T[::-1], face))]
+        data, width = rows.tobytes(), rows.itemsize * rows.shape[1]
+        alike = tuple(data[a:b] for a, b in pairwise((width * first).tolist()))
+        size = np.full(len(jobs), np.inf)
+        np.divide(sizes, sized, out=size, where=sized > 0.0)
+        return cls(segments, loops, size, alike)
+
+    @property
+    def fewest(self) -> np.ndarray:
+        """Triangles (f,) within the loops when no node lies inside, by Euler's formula."""
+        return self.segments + 2.0 * self.loops - 4.0
+
+
+class FaceCounts(NamedTuple):
+    """Triangles of many faces."""
+
+    counts: np.ndarray
+    """(f,) on each."""
+    alike: np.ndarray
+    """(f,) the first face that each is like."""
+
+
 def counts_of_faces(
-    jobs: list[FaceJob], areas: np.ndarray, count: Callable[[list[FaceJob]], np.ndarray]
-) -> np.ndarray:
-    """Triangles (f,) on each face. areas: (f,) of the faces; count: looks closely at some."""
-    first, class_of = _classes(jobs, areas)
-    rough = np.array([_rough(jobs[face], areas[face]) for face in first], float)
+    jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines,
+    count: Callable[[list[int]], np.ndarray],
+) -> FaceCounts:  # fmt: skip
+    """areas: (f,) of the faces; outlines: of all; count: triangles of some faces by their numbers,
+    of a closer look."""
+    first, class_of = _classes(jobs, areas, outlines)
+    inside = TRIANGLES * areas[first] / outlines.size[first] ** 2
+    rough = np.maximum(combined(inside, outlines.fewest[first]), 1.0)
     members = np.bincount(class_of, minlength=len(first))
     plane = np.array([jobs[face].surface.kind == "plane" for face in first], bool)
     samples = [
@@ -40,13 +91,13 @@ def counts_of_faces(
     ]
     close = np.concatenate([chosen for _, chosen, _ in samples])
     counts = np.zeros(len(first))
-    counts[close] = count([jobs[first[number]] for number in close.tolist()])
+    counts[close] = count(first[close].tolist())
     for of, chosen, times in samples:
         if len(of) > len(chosen):
             others = np.setdiff1d(of, chosen)
             factor = np.average(counts[chosen] / rough[chosen], weights=times)
             counts[others] = factor * rough[others]
-    return counts[class_of]
+    return FaceCounts(counts[class_of], first[class_of])
 
 
 def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -58,50 +109,36 @@ def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
 
 
-def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndarray]:
-    """The first face of each class of alike ones, and the class (f,) of each face."""
+def _classes(
+    jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines
+) -> tuple[np.ndarray, np.ndarray]:
+    """The first face of each class of alike ones (k,), and the class (f,) of each face."""
     known: dict[Any, int] = {}
-    first: list[int] = []
-    class_of = np.empty(len(jobs), int)
-    loops = _loops_in_figures(jobs)
-    for number, (job, area) in enumerate(zip(jobs, _rounded(areas).tolist())):
-        key = _likeness(job, area, loops[number]) or number
-        if key not in known:
-            known[key] = len(first)
-            first.append(number)
-        class_of[number] = known[key]
-    return first, class_of
+    class_of = [
+        known.setdefault(key, len(known)) for key in _likenesses(jobs, _rounded(areas), outlines)
+    ]
+    _, first = np.unique(class_of, return_index=True)
+    return first, np.array(class_of, int)
 
 
-def _likeness(job: FaceJob, area: float, loops: bytes) -> Any:
-    """What alike faces have in common; None where the place of a face counts too."""
-    if job.limits is not None or job.sizing.has_law or job.sizing.sources:
-        return None
-    return job.surface.kind, job.sizing, job.narrow is not None, area, loops
-
-
-def _loops_in_figures(jobs: list[FaceJob]) -> list[bytes]:
-    """Of each job, of its loops in one order: how many nodes, how long, and the sum of the sizes
-    there, rounded, as bytes that are the same where these are."""
-    if not jobs:
-        return []
-    figures, first = loop_figures([job.boundary for job in jobs])
-    rows = np.column_stack([figures[:, 0], _rounded(figures[:, 1]), _rounded(figures[:, 2])])
-    order = np.lexsort((*rows.T[::-1], np.repeat(np.arange(len(jobs)), np.diff(first))))
-    return [own.tobytes() for own in np.split(rows[order], first[1:-1])]
+def _likenesses(jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines) -> Iterator[Any]:
+    """What alike faces have in common; the number of a face where its place counts too."""
+    known: dict[Sizing, int] = {}
+    sizings = {id(job.sizing): job.sizing for job in jobs}
+    of_sizing = {
+        key: None if own.has_law or own.sources else known.setdefault(own, len(known))
+        for key, own in sizings.items()
+    }
+    for number, (job, area, loops) in enumerate(zip(jobs, areas.tolist(), outlines.alike)):
+        sizing = of_sizing[id(job.sizing)]
+        if job.limits is not None or sizing is None:
+            yield number
+        else:
+            yield job.surface.kind, sizing, job.narrow is not None, area, loops
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:
-    """To ``DIGITS`` digits (n,)."""
+    """To ``DIGITS`` digits, in the shape that they have."""
     size = np.where(values > 0.0, values, 1.0)
     scale = 10.0 ** (DIGITS - 1 - np.floor(np.log10(size)))
     return np.where(values > 0.0, np.rint(size * scale) / scale, values)
-
-
-def _rough(job: FaceJob, area: float) -> float:
-    """Triangles, if the sizes of its boundary hold all over it."""
-    sizes, loops = job.boundary.sizes, len(job.boundary.loop_end)
-    real = sizes[np.isfinite(sizes)]
-    nodes = len(sizes) - len(job.boundary.piece_end)
-    inside = TRIANGLES * area / float(real.mean()) ** 2 if len(real) else 0.0
-    return max(combined(inside, nodes, loops), 1.0)

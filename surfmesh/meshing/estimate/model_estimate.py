@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -11,12 +12,12 @@ from surfmesh._core.edges import curvatures_at
 from surfmesh._core.faces import metric_areas_inward
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import cell_centres, inner_samples
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
-from surfmesh.meshing.estimate.face_counts import counts_of_faces
+from surfmesh.meshing.estimate.face_counts import FaceCounts, Outlines, counts_of_faces
 from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
@@ -27,6 +28,9 @@ from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.size_rules import SizeRules
+
+JobsOf = Callable[[Sequence[int]], list[FaceJob]]
+"""Of faces by their numbers."""
 
 FEW = 9
 """Points each way of a grid on a face."""
@@ -51,10 +55,18 @@ class FaceFields:
         return self._known[id(job)][1]
 
 
-def model_counts(model: CadModel, jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
-    """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
-    cannot be made."""
-    return counts_of_faces(jobs, model_arrays(model).area, partial(counts_by_area, fields=fields))
+def model_counts(
+    model: CadModel, jobs: list[FaceJob], outlines: Outlines, refined: JobsOf, fields: FaceFields
+) -> FaceCounts:
+    """Triangles on each face before anything is known of a mesh. Raises ``SizingError`` where a
+    size field cannot be made.
+
+    jobs: of the first round; refined: what some are counted from.
+    """
+    return counts_of_faces(
+        jobs, model_arrays(model).area, outlines,
+        lambda numbers: counts_by_area(refined(numbers), fields),
+    )  # fmt: skip
 
 
 def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
@@ -63,18 +75,16 @@ def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     strips = [strip_mesh(job) for job in jobs]
     makes = InwardFaces()
     inward = [None if strip else makes.face(job) for strip, job in zip(strips, jobs)]
-    areas = iter(metric_areas_inward([face for face in inward if face is not None]).tolist())
-    counts = np.empty(len(jobs))
-    for number, (job, strip, face) in enumerate(zip(jobs, strips, inward)):
+    areas = np.full(len(jobs), np.nan)
+    grown = [number for number, face in enumerate(inward) if face is not None]
+    areas[grown] = metric_areas_inward([inward[number] for number in grown])
+    for number, (job, strip) in enumerate(zip(jobs, strips)):
+        if strip is None and np.isnan(areas[number]):
+            areas[number] = metric_area(fields(job)[1], job.rings)
+    counts = combined(TRIANGLES * areas, Outlines.of(jobs).fewest)
+    for number, strip in enumerate(strips):
         if strip is not None:
             counts[number] = len(strip.triangles)
-            continue
-        area = np.nan if face is None else next(areas)
-        if np.isnan(area):
-            area = metric_area(fields(job)[1], job.rings)
-        boundary = job.boundary
-        nodes = len(boundary) - len(boundary.piece_end)
-        counts[number] = combined(TRIANGLES * area, nodes, len(boundary.loop_end))
     return counts
 
 
@@ -113,7 +123,74 @@ def bounds(
     return least, most
 
 
-def quick_bound(model: CadModel, nodes: CutEdges, sizings: list[Sizing]) -> float:
+class _Curvatures(NamedTuple):
+    """Of the curved faces of a model, at points of their boxes."""
+
+    faces: np.ndarray
+    """(c,) their numbers."""
+    first: np.ndarray
+    """(c + 1,) where the points of each begin."""
+    k1: np.ndarray
+    k2: np.ndarray
+    regular: np.ndarray
+    """(n,) bool: curvatures (n,) are known there."""
+
+    @classmethod
+    def of(cls, model: CadModel) -> Self:
+        faces = np.array([k for k, f in enumerate(model.faces) if f.surface.kind != "plane"], int)
+        surfaces = [model.faces[face].surface for face in faces.tolist()]
+        count = np.array([1 if has_even_curvature(own) else FEW**2 for own in surfaces], int)
+        first = offsets(count)
+        box = np.array([own.domain for own in surfaces], float).reshape(-1, 2, 2)
+        at = np.full((first[-1], 2), 0.5)
+        at[np.repeat(count > 1, count)] = np.tile(cell_centres(FEW), ((count > 1).sum(), 1))
+        low, side = np.repeat(box[..., 0], count, 0), np.repeat(np.diff(box)[..., 0], count, 0)
+        k1, k2, degenerate = curvatures_at(low + at * side, first, [own.core for own in surfaces])
+        return cls(faces, first, k1, k2, ~degenerate.astype(bool))
+
+
+_KNOWN: WeakKeyDictionary[CadModel, _Curvatures] = WeakKeyDictionary()  # of any sizes the same
+
+
+def _curvatures(model: CadModel) -> _Curvatures:
+    if model not in _KNOWN:
+        _KNOWN[model] = _Curvatures.of(model)
+    return _KNOWN[model]
+
+
+class Bends(NamedTuple):
+    """What the curvature of the faces of a model asks for within their boxes, at a few points."""
+
+    least: np.ndarray
+    """(f,) the smallest size, infinite where curvature asks for none."""
+    turn: np.ndarray
+    """(f,) radians that the surface turns by along an edge, at most."""
+
+    @classmethod
+    def of(cls, model: CadModel, sizings: Sequence[Sizing]) -> Self:
+        """sizings: of the faces."""
+        known = _curvatures(model)
+        least, turn = np.full(len(sizings), np.inf), np.zeros(len(sizings))
+        largest = np.where(known.regular, np.maximum(np.abs(known.k1), np.abs(known.k2)), 0.0)
+        own = np.array([id(sizings[face]) for face in known.faces.tolist()], int)
+        for sizing in {id(sizing): sizing for sizing in sizings}.values():
+            which = np.flatnonzero(own == id(sizing))
+            if not len(which):
+                continue
+            rows, allowed = rows_of(known.first, which), SizeRules.of(sizing, model.diagonal)
+            start = offsets(known.first[which + 1] - known.first[which])[:-1]
+            sizes = np.full(len(rows), allowed.clamp[1])
+            if allowed.follows_curvature:
+                found = allowed.shorter(known.k1[rows], known.k2[rows])
+                sizes = np.where(known.regular[rows], found, sizes)
+                least[known.faces[which]] = np.minimum.reduceat(sizes, start)
+            turn[known.faces[which]] = np.maximum.reduceat(sizes * largest[rows], start)
+        return cls(least, turn)
+
+
+def quick_bound(
+    model: CadModel, nodes: CutEdges, sizings: list[Sizing], bends: Bends
+) -> float:  # fmt: skip
     """Triangles of the whole model at most, of size requests at a few points of the faces' boxes,
     all faces at once; infinite where sizes depend on the place by a law."""
     arrays = model_arrays(model)
@@ -121,89 +198,38 @@ def quick_bound(model: CadModel, nodes: CutEdges, sizings: list[Sizing]) -> floa
     cut = np.flatnonzero(np.diff(nodes.first))
     if len(cut):
         edges[cut] = np.minimum.reduceat(nodes.rows.sizes, nodes.first[cut])
-    smallest = np.full(len(sizings), np.inf)
+    smallest = bends.least.copy()
     np.minimum.at(smallest, arrays.coedge_face, edges[arrays.coedge_edge])
-    by_sizing: dict[int, list[int]] = {}
-    for number, sizing in enumerate(sizings):
-        by_sizing.setdefault(id(sizing), []).append(number)
-    for faces in by_sizing.values():
-        sizing = sizings[faces[0]]
+    limits: dict[int, tuple[float, float]] = {}
+    for sizing in {id(sizing): sizing for sizing in sizings}.values():
         if sizing.has_law:
             return np.inf
-        allowed = SizeRules.of(sizing, model.diagonal)
-        sizes = [allowed.clamp[1], *(getattr(s, "size", np.inf) for s in sizing.sources)]
-        smallest[faces] = np.minimum(smallest[faces], min(sizes))
-        curved = [face for face in faces if model.faces[face].surface.kind != "plane"]
-        if curved and allowed.follows_curvature:
-            found = _least_by_curvature([model.faces[face].surface for face in curved], allowed)
-            smallest[curved] = np.minimum(smallest[curved], found)
-        smallest[faces] = np.maximum(smallest[faces], allowed.clamp[0])
+        floor, top = SizeRules.of(sizing, model.diagonal).clamp
+        limits[id(sizing)] = floor, min([top, *(getattr(s, "size", top) for s in sizing.sources)])
+    floor, top = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
+    smallest = np.maximum(np.minimum(smallest, top), floor)
     return float((TRIANGLES * arrays.area / smallest**2).sum())
 
 
-def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.ndarray:
-    """The smallest size (k,) that the curvature of each surface asks for within its box."""
-    sizes, _, first = _by_curvature(surfaces, allowed)
-    return np.minimum.reduceat(sizes, first[:-1])
-
-
-def _by_curvature(
-    surfaces: list[FaceSurface], allowed: SizeRules
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sizes and largest curvatures (n,) at points of the boxes of surfaces, and where those of each
-    begin (k + 1,)."""
-    every = [1 if has_even_curvature(surface) else FEW for surface in surfaces]
-    grids = {count: cell_centres(count) for count in set(every)}
-    low, high = np.array([surface.domain for surface in surfaces]).transpose(2, 0, 1)
-    uv = [a + grids[count] * (b - a) for count, a, b in zip(every, low, high)]
-    first = offsets(np.square(every))
-    k1, k2, degenerate = curvatures_at(
-        np.concatenate(uv), first, [surface.core for surface in surfaces]
-    )
-    regular = ~degenerate.astype(bool)
-    sizes = np.full(len(k1), allowed.clamp[1])
-    if allowed.follows_curvature:
-        sizes = np.where(regular, allowed.shorter(k1, k2), sizes)
-    return sizes, np.where(regular, np.maximum(np.abs(k1), np.abs(k2)), 0.0), first
-
-
-def is_foreseen(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> bool:
+def is_foreseen(
+    sizings: Sequence[Sizing], counts: np.ndarray, fewest: np.ndarray, bends: Bends
+) -> bool:
     """Is the mesh of the first round the last one, and are ``counts`` (f,) its triangles?
 
-    diagonal: of the model.
+    sizings: of the faces. fewest: (f,) that their loops allow.
     """
-    every = {id(job.sizing): job.sizing for job in jobs}.values()
-    if not all(map(is_one_round, every)):
+    if not all(map(is_one_round, {id(sizing): sizing for sizing in sizings}.values())):
         return False
-    unknown = np.maximum(bent_counts(jobs, diagonal, counts), thin_counts(jobs, counts))
+    bent = np.where(bends.turn > LARGEST_TURN, counts * (bends.turn / LARGEST_TURN) ** 2, 0.0)
+    unknown = np.maximum(bent, thin_counts(counts, fewest))
     return float(unknown.sum()) <= FEW_UNKNOWN * float(counts.sum())
 
 
-def thin_counts(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
+def thin_counts(counts: np.ndarray, fewest: np.ndarray) -> np.ndarray:
     """Those of the triangles ``counts`` (f,): on faces that are about as wide as
     these, where neither the boundary nor the area tells how many there are."""
-    boundaries = [job.boundary for job in jobs]
-    fewest = np.array([
-        len(b) - len(b.piece_end) + 2 * len(b.loop_end) - 4 for b in boundaries
-    ], float)  # fmt: skip
     thin = (counts > THIN[0] * fewest) & (counts < THIN[1] * fewest)
     return np.where(thin, counts, 0.0)
-
-
-def bent_counts(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> np.ndarray:
-    """Those of the triangles ``counts`` (f,): on faces where sizes are large for the
-    curvature, as many as they may become."""
-    turns = np.zeros(len(counts))
-    by_sizing: dict[int, list[int]] = {}
-    for number, job in enumerate(jobs):
-        if job.surface.kind != "plane":
-            by_sizing.setdefault(id(job.sizing), []).append(number)
-    for faces in by_sizing.values():
-        allowed = SizeRules.of(jobs[faces[0]].sizing, diagonal)
-        surfaces = [jobs[face].surface for face in faces]
-        sizes, curvature, first = _by_curvature(surfaces, allowed)
-        turns[faces] = np.maximum.reduceat(sizes * curvature, first[:-1])
-    return np.where(turns > LARGEST_TURN, counts * (turns / LARGEST_TURN) ** 2, 0.0)
 
 
 def require_model_within(
@@ -212,12 +238,15 @@ def require_model_within(
 ) -> None:  # fmt: skip
     """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
     triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
-    if quick_bound(model, nodes, sizings) <= sizing.limit:
+    if quick_bound(model, nodes, sizings, Bends.of(model, sizings)) <= sizing.limit:
         return
     least, most = bounds(model, nodes, sizings)
     if most.sum() <= sizing.limit:
         return
     names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
-    counts = model_counts(model, jobs(), FaceFields())
-    require_within(sizing.limit, Estimate.of(counts, model=True), names)
+    every = jobs()
+    found = model_counts(
+        model, every, Outlines.of(every), lambda numbers: [every[k] for k in numbers], FaceFields()
+    )
+    require_within(sizing.limit, Estimate.of(found.counts, model=True), names)

@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.meshing.estimate.face_counts import FaceCounts
+from surfmesh.meshing.estimate.model_estimate import JobsOf
 from surfmesh.meshing.estimate.trial_patches import (
     SMALL_PATCH,
     PatchPlan,
@@ -60,9 +62,10 @@ SPREAD = (0.5, 2.5)
 """What lies beyond is no ratio but a face that fails."""
 
 
-def ratios(jobs: list[FaceJob], counts: np.ndarray, field: FieldOf) -> np.ndarray:
-    """Factors (f,) on the estimated ``counts`` (f,) of the faces. field: of a job."""
-    found = np.ones(len(jobs))
+def ratios(jobs: list[FaceJob], found: FaceCounts, refined: JobsOf, field: FieldOf) -> np.ndarray:
+    """Factors (f,) on the estimated counts of the faces. jobs: of the first round; refined: what
+    some are tried from; field: of a job."""
+    counts, factors = found.counts, np.ones(len(jobs))
     # on a plane the optimiser has nothing to split where sizes are the same all ways
     stretched = np.array([job.sizing.is_anisotropic for job in jobs], bool)
     plane = np.array([job.surface.kind == "plane" for job in jobs], bool)
@@ -73,12 +76,16 @@ def ratios(jobs: list[FaceJob], counts: np.ndarray, field: FieldOf) -> np.ndarra
             continue
         for plan in _PLANS:
             at = (np.arange(plan.faces) + 0.5) / plan.faces * sums[-1]
-            chosen, times = np.unique(of[np.searchsorted(sums, at)], return_counts=True)
+            tried = found.alike[of[np.searchsorted(sums, at)]]
+            chosen, times = np.unique(tried, return_counts=True)
             if plan.cost(counts[chosen]) <= most:
-                each = [_ratio(jobs[k], float(counts[k]), plan.patch, field) for k in chosen]
-                found[of] = np.average(each, weights=times)
+                each = [
+                    _ratio(job, count, plan.patch, field)
+                    for job, count in zip(refined(chosen.tolist()), counts[chosen].tolist())
+                ]
+                factors[of] = np.average(each, weights=times)
                 break
-    return found
+    return factors
 
 
 def _ratio(job: FaceJob, count: float, plan: PatchPlan, field: FieldOf) -> float:

@@ -12,7 +12,7 @@ from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing import model_mesh, parametric_mesh
 from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
-from surfmesh.meshing.estimate.face_counts import counts_of_faces
+from surfmesh.meshing.estimate.face_counts import Outlines, counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.face_queue import FaceQueue
@@ -184,11 +184,12 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         every = model_estimate.counts_by_area(before.jobs, fields)
         looked.clear()
 
-        def count(jobs, fields=fields):
-            looked.extend(jobs)
-            return model_estimate.counts_by_area(jobs, fields)
+        def count(numbers, jobs=before.jobs, fields=fields):
+            looked.extend(numbers)
+            return model_estimate.counts_by_area([jobs[k] for k in numbers], fields)
 
-        found = counts_of_faces(before.jobs, areas, count)
+        outlines = Outlines.of(before.jobs)
+        found = counts_of_faces(before.jobs, areas, outlines, count).counts
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 

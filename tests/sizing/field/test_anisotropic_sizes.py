@@ -109,7 +109,7 @@ def test_the_field_is_what_the_curvature_asks_for(name, ratio):
     _, ru, rv = surface.evaluate(uv, 1)
     d = step[:, :1] * rates[:, :1] * ru + step[:, 1:] * rates[:, 1:] * rv
     length = np.linalg.norm(d, axis=1)
-    exact = length / size_along(surface, uv, d / length[:, None], bounds)
+    exact = length / size_along([surface], [uv], d / length[:, None], bounds)
     w = np.array([metric_root_3d(row) for row in field.metric_roots_3d(xy)])
     spatial = np.linalg.norm(np.einsum("nij,nj->ni", w, d), axis=1)
     for found in (lengths_in(field, xy, step), spatial):

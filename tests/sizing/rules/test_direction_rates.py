@@ -76,7 +76,7 @@ def test_edges_are_told_as_faces_are():
     v = np.linspace(0.6, 1.9, 9)
     uv = np.stack([np.full(9, 1.0), v], axis=1)
     ruling = np.tile(np.array([np.cos(1.0), np.sin(1.0), 1.0]) / np.sqrt(2), (9, 1))
-    size = size_along(CONE, uv, ruling, bounds)
+    size = size_along([CONE], [uv], ruling, bounds)
     assert (size <= 6 / 5.6 * FANNING * np.sqrt(2) * v).all() and (size > 0.3 * v).all()
 
 
