@@ -74,8 +74,8 @@ void bind_swaps(nb::module_& m) {
             require_domain(t, s);
             require_marks(t, marks);
             Array<double> shape;
-            const int swaps = swap_for_shape(t, s, shape, marks, good, sweeps);
-            return std::pair(swaps, view(shape));
+            const SwapsMade made = swap_for_shape(t, s, shape, nullptr, marks, good, sweeps);
+            return std::pair(made.count, view(shape));
         },
         nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("good"), nb::arg("sweeps"),
         "Swap edges at dirty vertices while that raises the smaller alpha of the pair.\n\n"
@@ -88,7 +88,7 @@ void bind_swaps(nb::module_& m) {
             require_domain(t, s);
             require_stars(t, stars);
             require_marks(t, marks);
-            return swap_for_degree(t, s, stars, marks, least);
+            return swap_for_degree(t, s, stars, marks, least).count;
         },
         nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("least"),
         "Swap edges that bring the degrees of their four vertices nearer to six.\n\n"

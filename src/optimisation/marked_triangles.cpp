@@ -1,11 +1,14 @@
 #include "optimisation/marked_triangles.hpp"
 
+#include <algorithm>
+
 #include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr std::size_t MARKED_TOGETHER = 1 << 14;  // triangles looked at together
+constexpr std::size_t FEW_PART = 64;  // up to one vertex of so many: their stars are quicker
 
 /// Is triangle abc turned against the normals at its corners?
 bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least, double at_apex) {
@@ -20,6 +23,18 @@ bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double leas
             worst = std::min(worst, dot(n, s.normal[v]));
     }
     return worst < (regular ? least : at_apex) * area;
+}
+
+/// The triangles at marked vertices if these are few, and two borders meet at none of them.
+std::optional<Array<Triangle>> triangles_at_few(const Triangulation& t, const Stars& stars,
+                                                const Array<std::uint8_t>& vertices) {
+    const auto count = std::count(vertices.begin(), vertices.end(), std::uint8_t{1});
+    if (static_cast<std::size_t>(count) > vertices.size() / FEW_PART) return {};
+    Array<Vertex> marked;
+    const auto end = static_cast<Vertex>(vertices.size());
+    for (Vertex v = next_marked(vertices, 0, end); v < end; v = next_marked(vertices, v + 1, end))
+        marked.push_back(v);
+    return triangles_around(t, stars, {marked.data(), marked.size()});
 }
 
 }  // namespace
@@ -37,7 +52,11 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
     return folded;
 }
 
-Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices) {
+Array<Triangle> triangles_at(const Triangulation& t, const Stars* stars,
+                             const Array<std::uint8_t>& vertices) {
+    if (stars != nullptr)
+        if (std::optional<Array<Triangle>> found = triangles_at_few(t, *stars, vertices))
+            return *std::move(found);
     return collect_by_blocks<Triangle>(
         t.region.size(), MARKED_TOGETHER,
         [&](std::size_t first, std::size_t last, Array<Triangle>& found) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
 
@@ -17,7 +18,10 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
                                 double at_apex);
 
 /// The triangles with a corner that is marked in ``vertices``, in their order.
-Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices);
+///
+/// stars: of all vertices, by which those at a few are found; null where they are stale.
+Array<Triangle> triangles_at(const Triangulation& t, const Stars* stars,
+                             const Array<std::uint8_t>& vertices);
 
 /// The triangles with alpha below ``least``, in their order.
 Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least);

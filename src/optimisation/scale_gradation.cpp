@@ -1,7 +1,6 @@
 #include "optimisation/scale_gradation.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "optimisation/marked_triangles.hpp"
@@ -47,63 +46,33 @@ void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
     }
 }
 
-/// The half-edges that leave each vertex: of each the next one that leaves the same.
-class LeavingHalfEdges {
-  public:
-    explicit LeavingHalfEdges(const Triangulation& t)
-        : first_(t.xy.size(), NIL), next_(t.tri.size(), NIL) {
-        for (std::size_t k = 0; k < t.region.size(); ++k) {
-            if (t.region[k] == DEAD) continue;
-            for (auto e = static_cast<HalfEdge>(3 * k); e < static_cast<HalfEdge>(3 * k + 3); ++e) {
-                next_[e] = first_[t.tri[e]];
-                first_[t.tri[e]] = e;
-            }
-        }
-    }
-
-    /// The triangles at the vertices, in their order.
-    [[nodiscard]] Array<Triangle> triangles_at(const Array<Vertex>& vertices) const {
-        Array<Triangle> found;
-        for (const Vertex v : vertices)
-            for (HalfEdge e = first_[v]; e != NIL; e = next_[e]) found.push_back(e / 3);
-        std::sort(found.begin(), found.end());
-        found.resize(
-            static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin()));
-        return found;
-    }
-
-  private:
-    Array<HalfEdge> first_, next_;
-};
-
 /// Sweeps over the triangles at vertices whose sizes have changed in the sweep before.
 ///
 /// ``change(a, b)`` changes the size of b by that of a, whose size has changed, and says so.
 template <class Change>
-void spread_scales(const Triangulation& t, Array<std::uint8_t> from, Change change) {
-    std::optional<LeavingHalfEdges> leaving;  // few change, after the first sweep
-    Array<Triangle> around = triangles_at(t, from);
+void spread_scales(const Triangulation& t, const Stars& stars, Array<std::uint8_t> from,
+                   Change change) {
+    Array<Triangle> around = triangles_at(t, &stars, from);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         Array<std::uint8_t> is_changed(t.xy.size(), 0);
-        Array<Vertex> changed;
+        bool changes = false;
         for (const Triangle k : around)
             for_each_way(t, k, [&](Vertex a, Vertex b) {
-                if (from[a] == 0 || !change(a, b) || is_changed[b] != 0) return;
+                if (from[a] == 0 || !change(a, b)) return;
                 is_changed[b] = 1;
-                changed.push_back(b);
+                changes = true;
             });
-        if (changed.empty()) return;
-        if (!leaving) leaving.emplace(t);
-        around = leaving->triangles_at(changed);
+        if (!changes) return;
+        around = triangles_at(t, &stars, is_changed);
         from = std::move(is_changed);
     }
 }
 
 /// Raise sizes that were lowered, around vertices that are marked and from there on, until none is
 /// smaller than its neighbour's less the slope times the way; none above that of the size field.
-void raise_towards(const Triangulation& t, SurfaceFrames& s, Array<std::uint8_t> from,
-                   double slope) {
-    spread_scales(t, std::move(from), [&](Vertex a, Vertex b) {
+void raise_towards(const Triangulation& t, SurfaceFrames& s, const Stars& stars,
+                   Array<std::uint8_t> from, double slope) {
+    spread_scales(t, stars, std::move(from), [&](Vertex a, Vertex b) {
         if (!(s.scale[b] < LOWERED)) return false;
         const double least = s.size[a] - slope * norm(s.point[b] - s.point[a]);
         if (!(s.size[b] < LOWERED * least)) return false;
@@ -114,11 +83,11 @@ void raise_towards(const Triangulation& t, SurfaceFrames& s, Array<std::uint8_t>
 
 }  // namespace
 
-int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double slope,
-                 bool around_all) {
+int grade_scales(const Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+                 double slope, bool around_all) {
     Array<std::uint8_t> from(t.xy.size(), 0), found(t.xy.size(), 0);
     for (Vertex v = 0; v < t.vertices(); ++v) from[v] = around_all || s.scale[v] < LOWERED ? 1 : 0;
-    spread_scales(t, std::move(from), [&](Vertex a, Vertex b) {
+    spread_scales(t, stars, std::move(from), [&](Vertex a, Vertex b) {
         const double factor = factor_on(s, a, b, slope);
         if (!(factor < 1.0)) return false;
         shorten(s, b, factor);
@@ -128,8 +97,8 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
     return static_cast<int>(std::count(found.begin(), found.end(), 1));
 }
 
-void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Vertex> vertices,
-                    double slope) {
+void restore_scales(const Triangulation& t, SurfaceFrames& s, const Stars& stars,
+                    std::span<const Vertex> vertices, double slope) {
     Array<double> least(t.xy.size(), 0.0);  // what the restored are lowered to; 0 for all others
     Array<std::uint8_t> is_restored(t.xy.size(), 0);
     for (const Vertex v : vertices) {
@@ -138,8 +107,8 @@ void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Ve
         least[v] = s.size[v];
         shorten(s, v, 1.0 / s.scale[v]);
     }
-    const Array<Triangle> around = triangles_at(t, is_restored);
-    raise_towards(t, s, std::move(is_restored), slope);
+    const Array<Triangle> around = triangles_at(t, &stars, is_restored);
+    raise_towards(t, s, stars, std::move(is_restored), slope);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         bool changes = false;
         const auto hold = [&](Vertex a, Vertex b) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "triangulation/parts.hpp"
 
@@ -173,6 +172,9 @@ struct MovingVertex {
 /// Find the step of v; what is left of its star in ``part`` is the whole where that is not large.
 void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness, MovingVertex& m) {
     const Vertex v = m.v;
+    const Point3 from = s.point[v];
+    const TangentMap seen = s.tangent_map[v];
+    const auto chord_to = [&](Vertex p) { return apply(seen, s.point[p] - from); };
     Energy energy;
     StarPart& part = m.part;
     part.count = 0;
@@ -180,7 +182,7 @@ void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness,
     m.by = {{0.0, 0.0}, -1.0};
     HalfEdge e = m.start;
     Vertex p = t.tri[next_half_edge(e)];
-    Point2 to_p = chord(s, v, p);
+    Point2 to_p = chord_to(p);
     do {
         if (part.count == CHUNK) {
             m.whole = false;
@@ -189,7 +191,7 @@ void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness,
         }
         const HalfEdge before = prev_half_edge(e);
         const Vertex q = t.tri[before];
-        const Point2 to_q = chord(s, v, q);
+        const Point2 to_q = chord_to(q);
         e = t.adj[before];
         if (coincide(s, p, q)) {  // will collapse: neither shape nor a second edge
             m.whole = false;
@@ -244,20 +246,6 @@ bool move(Triangulation& t, SurfaceFrames& s, const MovingVertex& m) {
     return false;
 }
 
-/// The first active vertex from v on, or ``end``.
-Vertex next_active(const VertexMarks& marks, Vertex v, Vertex end) {
-    constexpr Vertex MANY = 8;  // looked at together
-    std::uint64_t several = 0;
-    static_assert(sizeof several == MANY);
-    while (v + MANY <= end) {
-        std::memcpy(&several, marks.active.data() + v, MANY);
-        if (several != 0) break;
-        v += MANY;
-    }
-    while (v < end && marks.active[v] == 0) ++v;
-    return v;
-}
-
 /// A pass over vertices: what it works on, and how far it goes.
 struct SmoothingPass {
     Triangulation& t;
@@ -307,7 +295,7 @@ void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks&
             const Part part = part_of(t, n);
             MovingVertex m;
             m.v = part.first_vertex;
-            while ((m.v = next_active(marks, m.v, part.end_vertex)) < part.end_vertex) {
+            while ((m.v = next_marked(marks.active, m.v, part.end_vertex)) < part.end_vertex) {
                 if (!stars.is_shared(m.v)) pass.visit(m, own);
                 ++m.v;
             }

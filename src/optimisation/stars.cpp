@@ -1,5 +1,8 @@
 #include "optimisation/stars.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "triangulation/parts.hpp"
 
 namespace surfmesh {
@@ -47,6 +50,38 @@ void find_stars(const Triangulation& t, Stars& stars) {
         const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
         if (!are_in_one_part(t, a, b, c)) stars.shared[a] = stars.shared[b] = stars.shared[c] = 1;
     }
+}
+
+bool renew_star(const Triangulation& t, HalfEdge e, Stars& stars) {
+    const Vertex v = t.tri[e];
+    std::pair<bool, HalfEdge> last{false, NIL};  // what is within no part comes last
+    std::int32_t found = 0;
+    bool is_shared = false;
+    for_each_in_fan(t, e, [&](HalfEdge f) {
+        const Triangle k = f / 3;
+        const bool is_left = !is_within_its_part(t, k);
+        last = std::max(last, {is_left, f});
+        if (is_left && !are_in_one_part(t, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]))
+            is_shared = true;
+        ++found;
+    });
+    stars.start[v] = last.second;
+    if (!stars.shared.empty()) stars.shared[v] = is_shared ? 1 : 0;
+    return found == stars.degree[v];
+}
+
+std::optional<Array<Triangle>> triangles_around(const Triangulation& t, const Stars& stars,
+                                                std::span<const Vertex> vertices) {
+    Array<Triangle> found;
+    for (const Vertex v : vertices) {
+        if (stars.start[v] == NIL) continue;
+        const std::size_t before = found.size();
+        for_each_in_fan(t, stars.start[v], [&](HalfEdge e) { found.push_back(e / 3); });
+        if (static_cast<std::int32_t>(found.size() - before) != stars.degree[v]) return {};
+    }
+    std::sort(found.begin(), found.end());
+    found.resize(static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin()));
+    return found;
 }
 
 }  // namespace surfmesh

@@ -151,9 +151,10 @@ void shorten(SurfaceFrames& s, Vertex v, double factor) {
 }
 
 double triangle_deviation(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
-    const double ab = rise(s, a, b), ba = rise(s, b, a);
-    const double bc = rise(s, b, c), cb = rise(s, c, b);
-    const double ca = rise(s, c, a), ac = rise(s, a, c);
+    const Point3 p = s.point[a], q = s.point[b], r = s.point[c];
+    const double ab = dot(s.normal[a], q - p), ba = dot(s.normal[b], p - q);  // as ``rise`` has it
+    const double bc = dot(s.normal[b], r - q), cb = dot(s.normal[c], q - r);
+    const double ca = dot(s.normal[c], p - r), ac = dot(s.normal[a], r - p);
     const double edges = std::max({std::abs(ab + ba) + 2.0 * std::abs(ab - ba),
                                    std::abs(bc + cb) + 2.0 * std::abs(bc - cb),
                                    std::abs(ca + ac) + 2.0 * std::abs(ca - ac)});

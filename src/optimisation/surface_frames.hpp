@@ -104,11 +104,12 @@ bool is_shape_below(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double
 /// from the two ends differ, the curvature changes along the edge: the difference is added.
 double triangle_deviation(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c);
 
+/// A step d in space, seen in a unit tangent plane.
+constexpr Point2 apply(const TangentMap& b, Point3 d) { return {dot(b.x, d), dot(b.y, d)}; }
+
 /// The chord from v to p in the unit tangent plane of v.
 inline Point2 chord(const SurfaceFrames& s, Vertex v, Vertex p) {
-    const Point3 d = s.point[p] - s.point[v];
-    const TangentMap& b = s.tangent_map[v];
-    return {dot(b.x, d), dot(b.y, d)};
+    return apply(s.tangent_map[v], s.point[p] - s.point[v]);
 }
 
 /// Length of the chord in units of the mean wanted size, in its direction, of its ends.

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "optimisation/marked_triangles.hpp"
 #include "optimisation/regular_degrees.hpp"
 #include "triangulation/local_operations.hpp"
 #include "triangulation/parts.hpp"
@@ -41,20 +42,18 @@ bool is_dirty(const Triangulation& t, const VertexMarks& marks, Triangle k) {
            marks.dirty[t.tri[3 * k + 2]];
 }
 
-/// Swap e, which may be, if that raises the smaller alpha of its two triangles.
-bool swap_if_better(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
-                    VertexMarks& marks, HalfEdge e) {
+/// Swap e, a to b, whose stars are known; false where one of the four new ones is not.
+bool swap_with_stars(Triangulation& t, HalfEdge e, const Quadrilateral& q, Stars& stars) {
     const HalfEdge f = t.adj[e];
-    const Quadrilateral q = corners_around(t, e);
-    const double old = std::min(shape[e / 3], shape[f / 3]);
-    const double first = triangle_shape(s, q.a, q.d, q.c);
-    const double second = triangle_shape(s, q.b, q.c, q.d);
-    if (!(std::min(first, second) > old + SWAP_GAIN) || !may_swap(t, s, e)) return false;
     swap_edge(t, e);
-    shape[e / 3] = first;
-    shape[f / 3] = second;
-    touch(marks, q);
-    return true;
+    stars.degree[q.a] -= 1;
+    stars.degree[q.b] -= 1;
+    stars.degree[q.c] += 1;
+    stars.degree[q.d] += 1;
+    bool known = true;
+    for (const HalfEdge own : {e, next_half_edge(e), prev_half_edge(e), f})  // from a, d, c, b
+        known = renew_star(t, own, stars) && known;
+    return known;
 }
 
 /// One look at the edges of triangles below ``good``, and what it is done with.
@@ -62,8 +61,28 @@ struct ShapeSwaps {
     Triangulation& t;
     const SurfaceFrames& s;
     Array<double>& shape;
+    Stars* stars;  // null where they are stale
     VertexMarks& marks;
     double good;
+    std::atomic<bool>& known;  // are the stars, still?
+
+    /// Swap e, which may be, if that raises the smaller alpha of its two triangles.
+    bool swap_if_better(HalfEdge e) const {
+        const HalfEdge f = t.adj[e];
+        const Quadrilateral q = corners_around(t, e);
+        const double old = std::min(shape[e / 3], shape[f / 3]);
+        const double first = triangle_shape(s, q.a, q.d, q.c);
+        const double second = triangle_shape(s, q.b, q.c, q.d);
+        if (!(std::min(first, second) > old + SWAP_GAIN) || !may_swap(t, s, e)) return false;
+        if (stars == nullptr)
+            swap_edge(t, e);
+        else if (!swap_with_stars(t, e, q, *stars))
+            known = false;
+        shape[e / 3] = first;
+        shape[f / 3] = second;
+        touch(marks, q);
+        return true;
+    }
 
     /// Swap edges of triangle k with others within the part; returns the swaps made.
     int swap_within(const Part& part, Triangle k, Array<Triangle>& left) const {
@@ -72,7 +91,7 @@ struct ShapeSwaps {
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
             if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
             if (is_within(t, part, t.adj[e] / 3))
-                swaps += swap_if_better(t, s, shape, marks, e);
+                swaps += swap_if_better(e);
             else
                 waits = true;
         }
@@ -108,6 +127,7 @@ struct DegreeSwaps {
     Stars& stars;
     VertexMarks& marks;
     double least;
+    std::atomic<bool>& known;  // are the stars, still?
 
     [[nodiscard]] bool is_wanted(HalfEdge e, const Quadrilateral& q) const {
         const Array<std::int32_t>& degree = stars.degree;
@@ -136,15 +156,8 @@ struct DegreeSwaps {
     }
 
     void swap(HalfEdge e, const Quadrilateral& q) const {
-        const HalfEdge f = t.adj[e];
-        swap_edge(t, e);
-        stars.degree[q.a] -= 1;
-        stars.degree[q.b] -= 1;
-        stars.degree[q.c] += 1;
-        stars.degree[q.d] += 1;
+        if (!swap_with_stars(t, e, q, stars)) known = false;
         touch(marks, q);
-        for (const Triangle k : {e / 3, f / 3})
-            for (HalfEdge own = 3 * k; own < 3 * k + 3; ++own) stars.start[t.tri[own]] = own;
     }
 
     /// Swap edges of triangle k with others within the part; returns the swaps made.
@@ -168,22 +181,23 @@ struct DegreeSwaps {
 };
 
 /// Measure the triangles with a dirty corner anew.
-void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& marks,
-                   Array<double>& shape) {
+void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const Stars* stars,
+                   const VertexMarks& marks, Array<double>& shape) {
     shape.resize(t.region.size(), 1.0);
-    for_each_block(t.region.size(), SWAPS_TOGETHER, [&](std::size_t first, std::size_t last) {
-        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-            if (t.region[k] != DEAD && is_dirty(t, marks, k))
-                shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    const Array<Triangle> dirty = triangles_at(t, stars, marks.dirty);
+    for_each_block(dirty.size(), SWAPS_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (const Triangle k : std::span(dirty.data() + first, last - first))
+            shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
     });
 }
 
 }  // namespace
 
-int swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
-                   VertexMarks& marks, double good, int sweeps) {
-    measure_dirty(t, s, marks, shape);
-    const ShapeSwaps swaps{t, s, shape, marks, good};
+SwapsMade swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
+                         Stars* stars, VertexMarks& marks, double good, int sweeps) {
+    measure_dirty(t, s, stars, marks, shape);
+    std::atomic<bool> known = stars != nullptr;
+    const ShapeSwaps swaps{t, s, shape, stars, marks, good, known};
     int total = 0;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         const int made = swaps.sweep();
@@ -191,12 +205,13 @@ int swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shap
         if (made == 0) break;
     }
     marks.dirty.fill(0);
-    return total;
+    return {total, known};
 }
 
-int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
-                    double least) {
-    const DegreeSwaps swaps{t, s, stars, marks, least};
+SwapsMade swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars,
+                          VertexMarks& marks, double least) {
+    std::atomic<bool> known = true;
+    const DegreeSwaps swaps{t, s, stars, marks, least, known};
     std::atomic<int> total = 0;
     const Array<Triangle> left = for_each_part(t, [&](const Part& part, Array<Triangle>& own) {
         int made = 0;
@@ -212,12 +227,13 @@ int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, Vert
     Array<Triangle> none;
     for (const Triangle k : left)
         if (t.region[k] != DEAD) total += swaps.swap_within(whole_of(t), k, none);
-    return total;
+    return {total, known};
 }
 
-int swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
-                   const Array<double>& shape, double bad, double least) {
-    const DegreeSwaps swaps{t, s, stars, marks, least};
+SwapsMade swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                         const Array<double>& shape, double bad, double least) {
+    std::atomic<bool> known = true;
+    const DegreeSwaps swaps{t, s, stars, marks, least, known};
     int made = 0;
     for (Triangle k = 0; k < t.triangles(); ++k) {
         if (!(shape[k] < bad) || t.region[k] == DEAD) continue;
@@ -233,7 +249,7 @@ int swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, Verte
             break;
         }
     }
-    return made;
+    return {made, known};
 }
 
 }  // namespace surfmesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include "values/array.hpp"
 #include "values/conventions.hpp"
@@ -23,5 +24,19 @@ struct VertexMarks {
 
     void touch(Vertex v) { active[v] = dirty[v] = 1; }
 };
+
+/// The first vertex from v on that is marked, or ``end``.
+inline Vertex next_marked(const Array<std::uint8_t>& marks, Vertex v, Vertex end) {
+    constexpr Vertex MANY = 8;  // looked at together
+    std::uint64_t several = 0;
+    static_assert(sizeof several == MANY);
+    while (v + MANY <= end) {
+        std::memcpy(&several, marks.data() + v, MANY);
+        if (several != 0) break;
+        v += MANY;
+    }
+    while (v < end && marks[v] == 0) ++v;
+    return v;
+}
 
 }  // namespace surfmesh

@@ -9,7 +9,6 @@
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/star_insertion.hpp"
-#include "optimisation/swaps.hpp"
 #include "optimisation/worst_shapes.hpp"
 #include "optimisation/worst_stars.hpp"
 
@@ -213,27 +212,27 @@ void PatchState::bring_nearer(std::span<const Triangle> triangles, StarBounds bo
 
 void PatchState::swap(double good) {
     if (stopped()) return;
-    const int made = swap_for_shape(t, frames, shape, marks, good, SWEEPS);
-    stars_known_ = stars_known_ && made == 0;
-    swaps += made;
+    note(swap_for_shape(t, frames, shape, stars_known_ ? &stars : nullptr, marks, good, SWEEPS));
 }
 
 void PatchState::swap_for_degree() {
     if (stopped()) return;
     find_stars();
-    const int made = surfmesh::swap_for_degree(t, frames, stars, marks, LEAST_FOR_DEGREE);
-    stars_known_ = stars_known_ && made == 0;
-    swaps += made;
+    note(surfmesh::swap_for_degree(t, frames, stars, marks, LEAST_FOR_DEGREE));
 }
 
 int PatchState::swap_at_border(double bad) {
     if (stopped() || shape.size() < t.region.size()) return 0;
     find_stars();
-    const int made =
+    const SwapsMade made =
         surfmesh::swap_at_border(t, frames, stars, marks, shape, bad, LEAST_FOR_DEGREE);
-    stars_known_ = stars_known_ && made == 0;
-    swaps += made;
-    return made;
+    note(made);
+    return made.count;
+}
+
+void PatchState::note(const SwapsMade& made) {
+    stars_known_ = made.stars_known;
+    swaps += made.count;
 }
 
 void PatchState::collapse() {
@@ -289,14 +288,16 @@ void PatchState::allow_splits() {
 
 int PatchState::hold_growth(bool around_all) {
     if (!asked().slope || stopped()) return 0;
-    return grade_scales(t, frames, marks, *asked().slope, around_all);
+    find_stars();
+    return grade_scales(t, frames, stars, marks, *asked().slope, around_all);
 }
 
 void PatchState::restore_nodes() {
     if (!asked().slope || asked().is_width || asked().keeps_lowered || is_anisotropic() ||
         stopped())
         return;
-    restore_scales(t, frames, {nodes_.vertex.data(), nodes_.vertex.size()}, *asked().slope);
+    find_stars();
+    restore_scales(t, frames, stars, {nodes_.vertex.data(), nodes_.vertex.size()}, *asked().slope);
 }
 
 void PatchState::end_passes() {

@@ -13,6 +13,7 @@
 #include "optimisation/closer_stars.hpp"
 #include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
+#include "optimisation/swaps.hpp"
 #include "optimisation/vertex_marks.hpp"
 #include "patch/limits.hpp"
 #include "surfaces/chart.hpp"
@@ -139,6 +140,7 @@ class PatchState {
     void end_passes();
 
   private:
+    void note(const SwapsMade& made);
     void renew_frames(std::span<const Vertex> vertices, double drift);
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink);

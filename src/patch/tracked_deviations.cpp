@@ -22,6 +22,7 @@ constexpr double SUSPECT_ONCE_MEASURED = 0.9;
 constexpr std::size_t FEW_TRIANGLES = 20'000;
 constexpr double FLAT = 1e-9;
 constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
+constexpr std::size_t CORNERS_COMPARED = 1 << 10;    // with those before at once
 
 double estimate(const PatchState& state, Triangle k) {
     const Array<Vertex>& tri = state.t.tri;
@@ -82,8 +83,11 @@ Array<Triangle> TrackedDeviations::changed(const Array<Triangle>& others) {
     is_changed_.resize(state_.t.xy.size(), 0);
     factor_.resize(state_.t.region.size(), 0.0F);
     const Array<HalfEdge> new_corners = collect_by_blocks<HalfEdge>(
-        now.size(), 3 * TRIANGLES_TOGETHER,
+        now.size(), CORNERS_COMPARED,
         [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
+            if (last <= before_.size() &&
+                std::equal(now.begin() + first, now.begin() + last, before_.begin() + first))
+                return;  // nearly always
             for (std::size_t e = first; e < last; ++e)
                 if (e >= before_.size() || now.data()[e] != before_.data()[e])
                     own.push_back(static_cast<HalfEdge>(e));
@@ -92,7 +96,8 @@ Array<Triangle> TrackedDeviations::changed(const Array<Triangle>& others) {
         is_changed_[now[e]] = 1;
         factor_[e / 3] = 0.0F;
     }
-    const Array<Triangle> around = triangles_at(state_.t, is_changed_);
+    state_.find_stars();
+    const Array<Triangle> around = triangles_at(state_.t, &state_.stars, is_changed_);
     const Array<Triangle> found =
         collect_by_blocks<Triangle>(around.size(), TRIANGLES_TOGETHER,
                                     [&](std::size_t first, std::size_t last, Array<Triangle>& own) {

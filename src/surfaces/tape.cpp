@@ -113,6 +113,29 @@ Tape::Tape(Program program) {
     for (Instruction& step : program_.instructions)  // what is not read is slot 0
         for (auto k = static_cast<std::size_t>(operands_of(step.operation)); k < 3; ++k)
             step.operands[k] = 0;
+    find_shared_angles();
+}
+
+void Tape::find_shared_angles() {
+    shared_.resize(program_.instructions.size());
+    const std::size_t slots = inputs() + program_.constants.size() + registers();
+    Array<std::int32_t> first(slots, -1);  // of each slot: the instruction that takes its sine or
+                                           // cosine, while the slot holds the same and it is alone
+    std::int32_t number = 0;
+    for (const Instruction& step : program_.instructions) {
+        if (step.operation == SIN || step.operation == COS) {
+            std::int32_t& before = first[step.operands[0]];
+            if (before >= 0 && program_.instructions[before].operation != step.operation) {
+                shared_[before] = {spares_, false};
+                shared_[number] = {spares_++, true};
+                before = -1;
+            } else {
+                before = number;
+            }
+        }
+        first[step.target] = -1;
+        ++number;
+    }
 }
 
 }  // namespace surfmesh

@@ -87,6 +87,13 @@ struct Instruction {
     std::int32_t exponent;
 };
 
+/// A sine or cosine whose angle another instruction has too: they are computed at once by the first,
+/// which keeps the other's numbers in a spare register until that one takes them.
+struct SharedAngle {
+    std::int32_t spare = -1;  // number of the spare register; -1: the angle is not shared
+    bool is_second = false;
+};
+
 /// The first broken invariant of a program, with the number of its instruction.
 enum class TapeFault {
     NONE,
@@ -127,14 +134,21 @@ class Tape {
         return span(program_.instructions);
     }
     [[nodiscard]] std::span<const std::int32_t> outputs() const { return span(program_.outputs); }
+    /// Of each instruction.
+    [[nodiscard]] std::span<const SharedAngle> shared_angles() const { return span(shared_); }
+    [[nodiscard]] std::size_t spares() const { return static_cast<std::size_t>(spares_); }
 
   private:
+    void find_shared_angles();
+
     template <class T>
     static std::span<const T> span(const Array<T>& array) {
         return {array.data(), array.size()};
     }
 
     Program program_;
+    Array<SharedAngle> shared_;
+    std::int32_t spares_ = 0;
 };
 
 /// The slots of a tape for a block of points or cells: `lanes` numbers each, in one piece.

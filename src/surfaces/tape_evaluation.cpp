@@ -178,10 +178,31 @@ void run_function(const Instruction& step, const Operands& o) {
     }
 }
 
-void run(const Instruction& step, const Slots& slots, std::size_t n) {
-    const auto [a, b, c] = step.operands;
-    const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
-    if (!run_arithmetic(step, o) && !run_choice(step, o)) run_function(step, o);
+/// A sine or cosine; ``spare``: what the other one of its angle is kept in.
+void run_shared(const Instruction& step, const Operands& o, bool is_second,
+                std::span<double> spare) {
+    if (is_second)
+        std::copy(spare.begin(), spare.end(), o.out);
+    else if (step.operation == Operation::SIN)
+        elementary::sincos(o.first(), o.target(), spare);
+    else
+        elementary::sincos(o.first(), spare, o.target());
+}
+
+/// All instructions, on the first n numbers of the slots.
+void run(const Tape& tape, const Slots& slots, std::span<double> spares, std::size_t n) {
+    const std::size_t lanes = tape.spares() == 0 ? 0 : spares.size() / tape.spares();
+    for (std::size_t k = 0; k < tape.instructions().size(); ++k) {
+        const Instruction& step = tape.instructions()[k];
+        const SharedAngle shared = tape.shared_angles()[k];
+        const auto [a, b, c] = step.operands;
+        const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
+        if (shared.spare >= 0)
+            run_shared(step, o, shared.is_second,
+                       spares.subspan(static_cast<std::size_t>(shared.spare) * lanes, n));
+        else if (!run_arithmetic(step, o) && !run_choice(step, o))
+            run_function(step, o);
+    }
 }
 
 }  // namespace
@@ -191,6 +212,7 @@ void evaluate(const Tape& tape, std::span<const double> points, std::span<Point3
     const std::size_t count = inputs == 0 ? 0 : points.size() / inputs;
     const std::size_t lanes = std::min(count, TAPE_BLOCK);
     const Slots slots(tape, lanes);
+    const Array<double> spares(tape.spares() * lanes);
     auto constant = static_cast<std::int32_t>(inputs);
     for (const double value : tape.constants()) std::fill_n(slots[constant++], lanes, value);
     for (std::size_t start = 0; start < count; start += lanes) {
@@ -199,7 +221,7 @@ void evaluate(const Tape& tape, std::span<const double> points, std::span<Point3
             double* input = slots[static_cast<std::int32_t>(column)];
             for (std::size_t k = 0; k < n; ++k) input[k] = points[(start + k) * inputs + column];
         }
-        for (const Instruction& step : tape.instructions()) run(step, slots, n);
+        run(tape, slots, {spares.data(), spares.size()}, n);
         for (std::size_t k = 0; k < tape.outputs().size() / 3; ++k) {
             const double *x = slots[tape.outputs()[3 * k]], *y = slots[tape.outputs()[3 * k + 1]],
                          *z = slots[tape.outputs()[3 * k + 2]];

@@ -36,6 +36,13 @@ inline bool is_within(const Triangulation& t, const Part& part, Triangle k) {
            has_vertex(part, t.tri[3 * k + 1]) && has_vertex(part, t.tri[3 * k + 2]);
 }
 
+/// Is triangle k within a part, that of its corners? All are where there are none.
+inline bool is_within_its_part(const Triangulation& t, Triangle k) {
+    if (t.parts.empty()) return true;
+    const auto n = static_cast<std::size_t>(t.tri[3 * k] / t.parts[0].end_vertex);  // see below
+    return n < count_parts(t) && is_within(t, part_of(t, n), k);
+}
+
 /// Do vertices a, b and c belong to one part?
 inline bool are_in_one_part(const Triangulation& t, Vertex a, Vertex b, Vertex c) {
     if (t.parts.empty()) return true;

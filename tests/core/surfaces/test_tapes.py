@@ -187,3 +187,30 @@ def test_wrong_arguments_are_refused():
         GOOD.bounds(np.zeros((3, 2)), np.zeros((2, 2)))
     lower, upper = GOOD.bounds(np.zeros((0, 2)), np.zeros((0, 2)))
     assert lower.shape == upper.shape == (0, 3)
+
+
+def angles_tape(second: str, overwritten: bool) -> Tape:
+    """Sine of an angle, then its sine or cosine once more, with what register is free in between."""
+    steps = [
+        Instruction("add", 3, (0, 1)),
+        Instruction("sin", 4, (3,)),
+        Instruction("multiply", 5, (4, 2)),
+        *([Instruction("negative", 3, (5,))] if overwritten else []),
+        Instruction(second, 5, (3,)),
+        Instruction("cos", 6, (3,)),
+        Instruction("sin", 3, (3,)),
+    ]
+    return Tape(2, (0.5,), tuple(steps), 4, (4, 5, 6, 3, 4, 5))
+
+
+@pytest.mark.parametrize("overwritten", [False, True])
+@pytest.mark.parametrize("second", ["sin", "cos"])
+def test_sine_and_cosine_of_one_angle_are_those_of_each_alone(second, overwritten):
+    x = numbers(np.random.default_rng(3), 2)
+    found = np.concatenate(angles_tape(second, overwritten).evaluate(x), axis=1)
+    angle = tape_of("add").evaluate(x)[0][:, :1]
+    sine = tape_of("sin").evaluate(angle)[0][:, :1]
+    again = -0.5 * sine if overwritten else angle
+    of_again = {name: tape_of(name).evaluate(again)[0][:, 0] for name in ("sin", "cos")}
+    expected = [sine[:, 0], of_again[second], of_again["cos"], of_again["sin"]]
+    np.testing.assert_array_equal(found[:, :4].T, expected)
