@@ -104,7 +104,7 @@ class SmoothBounds {
     [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
     void divide(Group group);
     /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
-    bool look_at(std::int32_t t, const HighDerivatives& over);
+    bool look_at(std::int32_t t, const DerivativeRows& over);
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
     void cut(Group group);
@@ -180,7 +180,7 @@ void SmoothBounds::divide(Group group) {
     for (const Group half : halves_of(group)) divide(half);
 }
 
-bool SmoothBounds::look_at(std::int32_t t, const HighDerivatives& over) {
+bool SmoothBounds::look_at(std::int32_t t, const DerivativeRows& over) {
     std::array<const SecondJet*, 3> jets{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t place = places_.at(3 * static_cast<std::size_t>(t) + k);
@@ -266,7 +266,7 @@ SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
             continue;
         }
         const double before = part_[first];
-        look_at(first, over_one);  // there is no less of it to look at
+        look_at(first, DerivativeRows(over_one));  // there is no less of it to look at
         // could smaller cells show less of others? They do for one, if so
         if (!rest.empty() && !(before <= WORTH * part_[first])) cut(rest);
     }
@@ -298,8 +298,9 @@ SurfaceStatus SmoothBounds::run() {
         for (std::size_t k = 0; k < count; ++k) {
             const Group group = group_of(k);
             const HighDerivatives& over = found[static_cast<std::ptrdiff_t>(k)];
+            const DerivativeRows by_row(over);
             const auto bad = std::partition(group.begin(), group.end(), [&](const Member& member) {
-                return look_at(member.triangle, over);
+                return look_at(member.triangle, by_row);
             });
             if (bad != group.end() && group.size() > 1)
                 left.push_back({Group(bad, group.end()), over});
