@@ -114,7 +114,7 @@ class Looker {
     SurfaceStatus look_at_piece(double limit, int levels, double& bound) {
         for (int level = int{FIRST_LEVEL}; level <= levels; ++level) {
             double found = intervals::INFINITE;
-            const auto status = bound_by_cells(level, found);
+            const auto status = bound_by_cells(level, limit, level == levels, found);
             if (status != SurfaceStatus::DONE) return status;
             if (found < bound) bound = found;
             // more cells take away what is between them, and no more
@@ -130,8 +130,18 @@ class Looker {
     SurfaceStatus take_points(std::size_t side, PointByPoint& found);
     [[nodiscard]] double farthest_from_linear(std::size_t side) const;
     [[nodiscard]] double farthest_from_side() const;
-    void measure(std::size_t m, double grown);
-    SurfaceStatus bound_by_cells(int level, double& found);
+    [[nodiscard]] double rounded() const { return (ROUNDING + rounded_uv_) * ring_.longest(); }
+    /// How far a cell may reach beyond its corners, within a plane.
+    [[nodiscard]] double grown(double scale) const {
+        return scale * piece_.bounds.cell_whole + rounded();
+    }
+    /// How far it may rise over its corners, from a member's plane.
+    [[nodiscard]] double sag(const Neighbour& member, double scale) const {
+        return scale * (piece_.bounds.cell_height + 2.0 * member.sine * piece_.bounds.cell_whole);
+    }
+    void measure(std::size_t m, double scale);
+    [[nodiscard]] double highest_within() const;
+    SurfaceStatus bound_by_cells(int level, double limit, bool is_last, double& found);
     [[nodiscard]] double highest(std::size_t side, double scale) const;
     [[nodiscard]] double height_of(const Cell& cell, double scale) const;
     [[nodiscard]] double farthest_at_rims(std::size_t side, double scale) const;
@@ -159,6 +169,7 @@ class Looker {
     // of each point and member: height over its plane, distances inside its sides
     Array<double> height_;
     Array<std::array<double, 3>> inside_;
+    Array<std::uint8_t> is_beyond_;  // bit s: so far beyond side s that no cell there lies over it
 };
 
 /// |r - L| at the corners of cells, and how far it may rise between them: both ways, by itself. Gaps
@@ -251,11 +262,12 @@ SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
 }
 
 /// Heights over a member's plane, and distances inside its sides; nothing where it is too far off.
-void Looker::measure(std::size_t m, double grown) {
+void Looker::measure(std::size_t m, double scale) {
     Neighbour& member = ring_[m];
     const std::size_t count = uv_.size();
     double* height = height_.data() + m * count;
     std::array<double, 3>* inside = inside_.data() + m * count;
+    std::uint8_t* is_beyond = is_beyond_.data() + m * count;
     double highest = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
         const auto& [r, error] = points_[k];
@@ -265,19 +277,36 @@ void Looker::measure(std::size_t m, double grown) {
                     (member.plane.tilt + ROUNDING) * size;
         highest = std::max(highest, height[k]);
     }
-    const double beside = 2.0 * (grown + highest + ROUNDING * ring_.longest());
+    const double beside =
+        2.0 * (scale * piece_.bounds.cell_whole + highest + ROUNDING * ring_.longest());
+    // no cell reaches farther beside the member, as in height_of
+    const double reach =
+        grown(scale) + 2.0 * (highest + sag(member, scale) + rounded()) * member.sine;
+    std::fill_n(is_beyond, count, std::uint8_t{0});
     member.is_near = true;
     for (std::size_t s = 0; s < 3; ++s) {
         double most = -intervals::INFINITE;
         for (std::size_t k = 0; k < count; ++k) {
             inside[k][s] = dot(member.inward[s], feet_[k] - member.corners[s]);
             most = std::max(most, inside[k][s]);
+            is_beyond[k] |= static_cast<std::uint8_t>((inside[k][s] < -reach ? 1U : 0U) << s);
         }
         if (m > 0 && most < -beside) member.is_near = false;
     }
 }
 
-SurfaceStatus Looker::bound_by_cells(int level, double& found) {
+/// The largest height of a point over the triangle itself, whose foot lies in it.
+double Looker::highest_within() const {
+    double most = 0.0;
+    for (std::size_t k = 0; k < uv_.size(); ++k) {
+        const auto& [a, b, c] = inside_[k];
+        if (std::min({a, b, c}) >= 0.0) most = std::max(most, height_[k]);
+    }
+    return most;
+}
+
+/// is_last: else it is left infinite where more cells are needed to come within the limit.
+SurfaceStatus Looker::bound_by_cells(int level, double limit, bool is_last, double& found) {
     const std::size_t side = std::size_t{1} << level;
     const double scale = 1.0 / static_cast<double>(side * side);
     if (const auto status = compute_points(side); status != SurfaceStatus::DONE) return status;
@@ -285,9 +314,15 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
     feet_.resize(count);
     height_.resize(ring_.count() * count);
     inside_.resize(ring_.count() * count);
+    is_beyond_.resize(ring_.count() * count);
     farthest_ = 0.0;
+    found = intervals::INFINITE;
     for (std::size_t k = 0; k < count; ++k) feet_[k] = ring_.foot(points_[k].value);
-    for (std::size_t m = 0; m < ring_.count(); ++m) measure(m, scale * piece_.bounds.cell_whole);
+    measure(0, scale);
+    const double least = highest_within();
+    if (!is_last && least <= limit && least + sag(ring_[0], scale) + rounded() > limit)
+        return SurfaceStatus::DONE;
+    for (std::size_t m = 1; m < ring_.count(); ++m) measure(m, scale);
     for (std::size_t k = 0; k < count; ++k) {
         const auto& own = inside_[k];
         if (std::min({own[0], own[1], own[2]}) >= 0.0) continue;
@@ -296,8 +331,7 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
                                                   distance_to_segment(feet_[k], c[1], c[2]),
                                                   distance_to_segment(feet_[k], c[2], c[0])}));
     }
-    found = intervals::INFINITE;
-    farthest_ += scale * piece_.bounds.cell_whole + (ROUNDING + rounded_uv_) * ring_.longest();
+    farthest_ += grown(scale);
     if (!(farthest_ < ring_.free())) return SurfaceStatus::DONE;
     found = highest(side, scale) * (1.0 + ROUNDING);
     if (piece_.is_own) found = std::max(found, farthest_at_rims(side, scale));
@@ -342,34 +376,34 @@ double Looker::beyond_rim(const Neighbour& member, std::size_t m, std::size_t s,
 /// Of one cell: over the members that it may lie over, and from the rims that it may lie beyond.
 double Looker::height_of(const Cell& cell, double scale) const {
     const std::size_t count = uv_.size();
-    const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    const double grown = scale * piece_.bounds.cell_whole + rounded;
+    const double grows = grown(scale);
     const auto& [a, b, c] = cell;
     double most = 0.0, from_rim = intervals::INFINITE, own = 0.0;
     bool leaves = false;
     for (std::size_t m = 0; m < ring_.count(); ++m) {
         const Neighbour& member = ring_[m];
+        const std::uint8_t* is_beyond = is_beyond_.data() + m * count;
         const bool has_rim = member.is_rim[0] || member.is_rim[1] || member.is_rim[2];
-        if (!member.is_near && !has_rim) continue;
+        const bool is_far = !member.is_near || (is_beyond[a] & is_beyond[b] & is_beyond[c]) != 0;
+        if (m > 0 && is_far && !has_rim) continue;
         const double* height = height_.data() + m * count;
         const std::array<double, 3>* inside = inside_.data() + m * count;
-        const double sag =
-            scale * (piece_.bounds.cell_height + 2.0 * member.sine * piece_.bounds.cell_whole);
-        const double high = std::max({height[a], height[b], height[c]}) + sag + rounded;
+        const double high =
+            std::max({height[a], height[b], height[c]}) + sag(member, scale) + rounded();
         if (m == 0) own = high;
         // a foot along this member's normal is off by so much
-        const double beside = grown + 2.0 * high * member.sine;
+        const double beside = grows + 2.0 * high * member.sine;
         bool is_over = true;
         for (std::size_t s = 0; s < 3; ++s) {
             if (std::max({inside[a][s], inside[b][s], inside[c][s]}) < -beside) is_over = false;
             if (!member.is_rim[s]) continue;
-            const double away = beyond_rim(member, m, s, cell, grown, beside);
+            const double away = beyond_rim(member, m, s, cell, grows, beside);
             if (away == 0.0) continue;
             leaves = true;
             from_rim = std::min(from_rim, std::sqrt(high * high + away * away) / member.cosine);
         }
         if (!is_over) continue;
-        most = std::max(most, std::min(high / member.cosine, over_side(m, own, cell, grown)));
+        most = std::max(most, std::min(high / member.cosine, over_side(m, own, cell, grows)));
     }
     return leaves ? std::max(most, from_rim) : most;
 }
@@ -403,9 +437,7 @@ double Looker::farthest_at_rims(std::size_t side, double scale) const {
             most = std::max(most, away + 2.0 * points_[at].error);
         }
     }
-    const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    return most > 0.0 ? most + scale * piece_.bounds.cell_whole + piece_.bounds.corner + rounded
-                      : 0.0;
+    return most > 0.0 ? most + grown(scale) + piece_.bounds.corner : 0.0;
 }
 
 SurfaceStatus Looker::look_at_all(std::span<const std::int32_t> which,

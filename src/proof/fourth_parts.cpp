@@ -107,13 +107,28 @@ Steps sizes_of(const StepBalls& steps, double factor) {
 
 double sum_of_sizes(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
+/// Derivatives along one axis: middles, their sizes, and the largest that they may have.
+struct AlongAxis {
+    DerivativeRows::Row mid, size, most;
+
+    AlongAxis(const DerivativeRows& over, Point3 axis) {
+        const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
+        for (std::size_t n = 0; n < HIGH_DERIVATIVES; ++n) {
+            mid[n] = axis.x * over.mid[0][n] + axis.y * over.mid[1][n] + axis.z * over.mid[2][n];
+            size[n] = std::abs(mid[n]);
+            most[n] = size[n] + over.rounding[n] + x * over.rad[0][n] + y * over.rad[1][n] +
+                      z * over.rad[2][n];
+        }
+    }
+};
+
 /// R'''' of each pair along each axis.
 struct FourthBalls {
-    std::array<ByPair, 3> mid{}, rad{};
+    std::array<ByPair, 3> mid, rad;
 };
 
 /// Of the derivatives from ``first`` on.
-FourthBalls along_axes(const HighDerivatives& over, const PlanePiece& piece, std::size_t first,
+FourthBalls along_axes(const DerivativeRows& over, const PlanePiece& piece, std::size_t first,
                        const Directions& axes) {
     const StepBalls steps = steps_of(piece);
     Weights mid, size, most;
@@ -121,26 +136,32 @@ FourthBalls along_axes(const HighDerivatives& over, const PlanePiece& piece, std
     set_weights(sizes_of(steps, 0.0), size);
     set_weights(sizes_of(steps, 1.0), most);
     FourthBalls found;
-    for (std::size_t n = first; n < HIGH_DERIVATIVES; ++n) {
-        const Point3 x = over.mid[n], r = over.rad[n];
-        const double rounding = FOURTH_ROUNDING * (sum_of_sizes(x) + sum_of_sizes(r));
-        for (std::size_t d = 0; d < 3; ++d) {
-            const Point3 axis = axes[d];
-            const double along = dot(axis, x), less = std::abs(along);
-            const double all = less + rounding + std::abs(axis.x) * r.x + std::abs(axis.y) * r.y +
-                               std::abs(axis.z) * r.z;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const AlongAxis along(over, axes[d]);
+        ByPair middle{}, radius{};  // in registers
+        for (std::size_t n = first; n < HIGH_DERIVATIVES; ++n)
             for (std::size_t p = 0; p < PAIRS; ++p) {
-                found.mid[d][p] += mid[n][p] * along;
-                found.rad[d][p] += most[n][p] * all - size[n][p] * less;
+                middle[p] += mid[n][p] * along.mid[n];
+                radius[p] += most[n][p] * along.most[n] - size[n][p] * along.size[n];
             }
-        }
+        found.mid[d] = middle;
+        found.rad[d] = radius;
     }
     return found;
 }
 
 }  // namespace
 
-FourthParts fourth_parts(const HighDerivatives& over, const PlanePiece& piece,
+DerivativeRows::DerivativeRows(const HighDerivatives& over) {
+    for (std::size_t n = 0; n < HIGH_DERIVATIVES; ++n) {
+        const Point3 x = over.mid[n], r = over.rad[n];
+        mid[0][n] = x.x, mid[1][n] = x.y, mid[2][n] = x.z;
+        rad[0][n] = r.x, rad[1][n] = r.y, rad[2][n] = r.z;
+        rounding[n] = FOURTH_ROUNDING * (sum_of_sizes(x) + sum_of_sizes(r));
+    }
+}
+
+FourthParts fourth_parts(const DerivativeRows& over, const PlanePiece& piece,
                          const Directions& axes) {
     const auto [mid, rad] = along_axes(over, piece, piece.is_straight() ? FOURTH : 0, axes);
     FourthParts found{};

@@ -26,8 +26,18 @@ inline constexpr BySide UNKNOWN_SIDES = {intervals::INFINITE, intervals::INFINIT
                                          intervals::INFINITE};
 inline constexpr FourthParts UNKNOWN_PARTS = {UNKNOWN_SIDES, UNKNOWN_SIDES, UNKNOWN_SIDES};
 
+/// Derivatives over a cell by coordinate, and what is added for round-off: side by side, for the many
+/// triangles that read them.
+struct DerivativeRows {
+    using Row = std::array<double, HIGH_DERIVATIVES>;
+    std::array<Row, 3> mid, rad;
+    Row rounding;
+
+    explicit DerivativeRows(const HighDerivatives& over);
+};
+
 /// Infinite where nothing is known.
-FourthParts fourth_parts(const HighDerivatives& over, const PlanePiece& piece,
+FourthParts fourth_parts(const DerivativeRows& over, const PlanePiece& piece,
                          const Directions& axes);
 
 }  // namespace surfmesh

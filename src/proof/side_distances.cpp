@@ -10,7 +10,8 @@ namespace {
 
 constexpr double DISTANCE_ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 constexpr std::array<std::size_t, 3> CELLS = {4, 16, 64};
-constexpr double ENOUGH = 0.1;  // of the distance: what is between points
+constexpr double ENOUGH = 0.1;      // of the distance: what is between points
+constexpr double LITTLE = 0x1p-10;  // of the side: which is as good, for what is made of it
 
 }  // namespace
 
@@ -29,7 +30,8 @@ double SideDistances::computed(std::size_t h) {
     const PlanePiece piece{mesh_.uv[t], mesh_.bends[t]};
     const Point3 a = mesh_.corners[t][k], b = mesh_.corners[t][next];
     const double size = norm(a) + norm(b);
-    const double rounded = rounded_part(piece) * (norm(b - a) + 4.0 * bounds.shift);
+    const double length = norm(b - a);
+    const double rounded = rounded_part(piece) * (length + 4.0 * bounds.shift);
     double found = intervals::INFINITE;
     for (const std::size_t cells : CELLS) {
         const double n = static_cast<double>(cells);
@@ -50,7 +52,7 @@ double SideDistances::computed(std::size_t h) {
         const double between = bounds.cell_whole / (n * n);
         const double all = most + between + rounded + DISTANCE_ROUNDING * size;
         if (all < found) found = all;
-        if (between <= ENOUGH * most) break;
+        if (between <= std::max(ENOUGH * most, LITTLE * length)) break;
     }
     return found;
 }

@@ -90,6 +90,7 @@ class SmoothBounds {
           places_({asked.uv.empty() ? nullptr : asked.uv[0].data(), 3 * asked.uv.size()}),
           jets_(places_.all().size()),
           is_known_(jets_.size()),
+          is_bounded_(asked.uv.size(), 0),
           off_(asked.uv.size(), 0.0),
           part_(asked.uv.size(), NONE),
           members_(asked.uv.size()) {}
@@ -98,13 +99,24 @@ class SmoothBounds {
 
   private:
     void prepare();
-    /// Where nothing was found.
-    void leave_unknown();
+    /// Where bounds were put off, or nothing was found.
+    void finish();
     /// The triangles of a group, by their places along its longer side.
     [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
     void divide(Group group);
     /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
-    bool look_at(std::int32_t t, const HighDerivatives& over);
+    /// is_last: there is no smaller cell, so that bounds are made of what there is.
+    bool look_at(std::int32_t t, const DerivativeRows& over, bool is_last);
+    [[nodiscard]] bool is_known_at(std::int32_t t) const;
+    [[nodiscard]] const SecondJet& jet_at(std::int32_t t, std::size_t corner) const {
+        return jets_.begin()[places_.at(3 * static_cast<std::size_t>(t) + corner)];
+    }
+    [[nodiscard]] double height_at_corner(std::int32_t t, const TriangleFrame& frame) const;
+    [[nodiscard]] TriangleFrame frame_at(std::int32_t t) const {
+        return frame_of(asked_.corners[t], off_[t], asked_.rims[t]);
+    }
+    /// Of one triangle, with the rho that is known. False as above.
+    bool bound(std::int32_t t, const TriangleFrame& frame);
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
     void cut(Group group);
@@ -116,7 +128,7 @@ class SmoothBounds {
     std::span<FourthParts> rho_;
     DistinctPlaces places_;
     Array<SecondJet> jets_;
-    Array<std::uint8_t> is_known_;
+    Array<std::uint8_t> is_known_, is_bounded_;  // of places; of triangles, with their rho
     Array<double> off_, part_;  // how far corners are off; what rho is of the height, so far
     Array<Member> members_;
     Array<Group> groups_;
@@ -137,11 +149,12 @@ void SmoothBounds::prepare() {
     for (std::size_t i = 0; i < jets_.size(); ++i) is_known_[i] = is_known(jets_[i]) ? 1 : 0;
 }
 
-void SmoothBounds::leave_unknown() {
-    for (std::size_t t = 0; t < out_.size(); ++t) {
-        if (part_.begin()[t] < NONE) continue;
+void SmoothBounds::finish() {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(out_.size()); ++t) {
+        if (part_[t] < NONE && is_bounded_[t] == 0) bound(t, frame_at(t));
+        if (part_[t] < NONE) continue;
         out_[t] = UNKNOWN;
-        out_[t].corner = off_.begin()[t];
+        out_[t].corner = off_[t];
         rho_[t] = UNKNOWN_PARTS;
     }
 }
@@ -180,18 +193,41 @@ void SmoothBounds::divide(Group group) {
     for (const Group half : halves_of(group)) divide(half);
 }
 
-bool SmoothBounds::look_at(std::int32_t t, const HighDerivatives& over) {
-    std::array<const SecondJet*, 3> jets{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t place = places_.at(3 * static_cast<std::size_t>(t) + k);
-        if (is_known_[place] == 0) return false;
-        jets[k] = &jets_[place];
-    }
-    const double off = off_[t];
-    const TriangleFrame frame = frame_of(asked_.corners[t], off, asked_.rims[t]);
+bool SmoothBounds::is_known_at(std::int32_t t) const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (is_known_[places_.at(3 * static_cast<std::size_t>(t) + k)] == 0) return false;
+    return true;
+}
+
+/// About as high as the piece is, by the curvature at a corner alone.
+double SmoothBounds::height_at_corner(std::int32_t t, const TriangleFrame& frame) const {
     const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
-    const FourthParts rho = fourth_parts(over, piece, frame.axes);
-    if (!(rho[0][0] < NONE)) return false;
+    const PlaceBends there =
+        place_bends(jet_at(t, 0), piece, PieceSteps(piece), AT_CORNERS[0], frame.axes);
+    const auto& [x, y, z] = there.value[2];
+    return 0.125 * std::max({std::abs(x), std::abs(y), std::abs(z)});
+}
+
+bool SmoothBounds::look_at(std::int32_t t, const DerivativeRows& over, bool is_last) {
+    if (!is_known_at(t)) return false;
+    const TriangleFrame frame = frame_at(t);
+    const FourthParts rho =
+        fourth_parts(over, asked_.piece(static_cast<std::size_t>(t)), frame.axes);
+    const double part = along_normal(rho) / 6.0;
+    if (!(part < part_[t])) return false;
+    rho_[t] = rho;
+    part_[t] = part;
+    is_bounded_[t] = 0;
+    const bool is_large = part > OF_LIMIT * asked_.limits[t];
+    if (!is_last && is_large && part > LITTLE * height_at_corner(t, frame)) return false;
+    return bound(t, frame);
+}
+
+bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
+    const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
+    const FourthParts& rho = rho_[t];
+    const double off = off_[t], part = part_[t];
+    const std::array<const SecondJet*, 3> jets = {&jet_at(t, 0), &jet_at(t, 1), &jet_at(t, 2)};
     const PieceSteps steps(piece);
     std::array<PlaceJet, 3> places{};
     const std::array<EnclosedPoint, 3> own = {(*jets[0])[0], (*jets[1])[0], (*jets[2])[0]};
@@ -204,11 +240,14 @@ bool SmoothBounds::look_at(std::int32_t t, const HighDerivatives& over) {
             places[k].bends = place_bends(*jets[k], piece, steps, AT_CORNERS[k], frame.axes);
     TriangleBounds found =
         bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off, false);
-    if (!(found.whole < intervals::INFINITE)) return false;
+    is_bounded_[t] = 1;
+    if (!(found.whole < intervals::INFINITE)) {
+        part_[t] = NONE;
+        return false;
+    }
     const double limit = asked_.limits[t] - off;
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
-    const double part = along_normal(rho) / 6.0;
     const bool is_clear = found.whole <= limit || part > limit;  // places within say nothing more
     const CellPlaces within = is_clear ? CellPlaces::NONE : CellPlaces::MANY;
     const auto [bends, away, steepest] = bounds_of_cells(rows, 1, rho, frame, within, with_slope);
@@ -219,11 +258,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighDerivatives& over) {
     found.height = std::min(found.height, away.height);
     found.whole = std::min(found.whole, away.whole);
     const double least = std::max(LITTLE * found.height, OF_LIMIT * asked_.limits[t]);
-    if (part < part_[t]) {
-        out_[t] = found;
-        rho_[t] = rho;
-        part_[t] = part;
-    }
+    out_[t] = found;
     return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
@@ -266,7 +301,7 @@ SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
             continue;
         }
         const double before = part_[first];
-        look_at(first, over_one);  // there is no less of it to look at
+        look_at(first, DerivativeRows(over_one), true);  // there is no less of it to look at
         // could smaller cells show less of others? They do for one, if so
         if (!rest.empty() && !(before <= WORTH * part_[first])) cut(rest);
     }
@@ -298,8 +333,9 @@ SurfaceStatus SmoothBounds::run() {
         for (std::size_t k = 0; k < count; ++k) {
             const Group group = group_of(k);
             const HighDerivatives& over = found[static_cast<std::ptrdiff_t>(k)];
+            const DerivativeRows by_row(over);
             const auto bad = std::partition(group.begin(), group.end(), [&](const Member& member) {
-                return look_at(member.triangle, over);
+                return look_at(member.triangle, by_row, group.size() == 1);
             });
             if (bad != group.end() && group.size() > 1)
                 left.push_back({Group(bad, group.end()), over});
@@ -307,7 +343,7 @@ SurfaceStatus SmoothBounds::run() {
         status = cut_further({left.data(), left.size()});  // at the end of the groups
         if (status != SurfaceStatus::DONE) return status;
     }
-    leave_unknown();
+    finish();
     return status;
 }
 

@@ -137,7 +137,7 @@ bool TriangleRing::is_folded(std::size_t h) const {
 double TriangleRing::free_around() {
     const std::int32_t t = members_[0];
     const auto& own = ring_[0].corners;
-    double nearest = 8.0 * longest_, shifted = 0.0;
+    double nearest = 8.0 * longest_;
     boundary_.clear();
     for (const std::int32_t other : members_) {
         const SpaceCorners& p = mesh_.corners[other];
@@ -153,18 +153,20 @@ double TriangleRing::free_around() {
             const Point2 a = seen(axes_, p[k] - origin_), b = seen(axes_, p[(k + 1) % 3] - origin_);
             for (std::size_t s = 0; s < 3; ++s)
                 nearest = std::min(nearest, distance_of_segments(own[s], own[(s + 1) % 3], a, b));
-            shifted =
-                std::max(shifted, 0.25 * mesh_.bounds[other].shift + mesh_.bounds[other].corner);
         }
     }
-    if (shifted > LITTLE_SHIFTED * nearest) shifted = std::min(shifted, shifted_sides());
+    const double shifted = shifted_sides(LITTLE_SHIFTED * nearest);
     return (1.0 - ROUNDING) * nearest - (1.0 + ROUNDING) * shifted - ROUNDING * longest_;
 }
 
-/// How far the curves over the boundary are from it.
-double TriangleRing::shifted_sides() {
+/// How far the curves over the boundary are from it; by their points where that may be more than a little.
+double TriangleRing::shifted_sides(double little) {
     double most = 0.0;
-    for (const std::size_t h : boundary_) most = std::max(most, sides_.at(h));
+    for (const std::size_t h : boundary_) {
+        const TriangleBounds& bounds = mesh_.bounds[h / 3];
+        const double shifted = 0.25 * bounds.shift + bounds.corner;
+        most = std::max(most, shifted > little ? std::min(shifted, sides_.at(h)) : shifted);
+    }
     return most;
 }
 

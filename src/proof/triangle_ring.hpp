@@ -78,7 +78,7 @@ class TriangleRing {
     bool take(std::int32_t other);
     [[nodiscard]] bool is_folded(std::size_t h) const;
     [[nodiscard]] double free_around();
-    [[nodiscard]] double shifted_sides();
+    [[nodiscard]] double shifted_sides(double little);
 
     ProofMesh mesh_;
     SideDistances& sides_;

@@ -33,6 +33,9 @@ PLACES = np.array([0.25, 0.5, 0.75])
 SECANTS = 6
 """Steps to the place of a piece that is over one of the side."""
 
+OVER = 1e-12
+"""Of the side: what is over a place of it is no farther from there."""
+
 ROUNDING = 1e-9
 """More than lengths and directions of triangles of any use are off."""
 
@@ -163,16 +166,42 @@ def _pairs(sides: _Sides) -> _Pairs:
     return order[pairs], order[pairs + 1]
 
 
+class _Rims(NamedTuple):
+    """Sides at rims of one face, from the lower end on."""
+
+    triangle: NDArray[np.intp]  # (k,) of all faces
+    side: NDArray[np.intp]  # (k,) of that
+    ends: NDArray[np.int64]  # (k, 2)
+    corners: Array  # (k, 2, 3)
+    uv: Array  # (k, 2, 2)
+
+
 def _sides(faces: list[FaceMoves], with_rates: bool = True) -> _Sides:
     """Of all faces. with_rates: else these are left 0."""
-    rows, start = [], 0
-    for face in faces:
-        rows.append(_sides_of(face, start, with_rates))
-        start += len(face.face.vertices)
-    return _Sides(*(np.concatenate(column) for column in zip(*rows, strict=True)))
+    starts = np.cumsum([0, *(len(face.face.vertices) for face in faces)])
+    rims = [_rims_of(face, start) for face, start in zip(faces, starts[:-1], strict=True)]
+    triangle, side, ends, corners, _ = map(np.concatenate, zip(*rims, strict=True))
+    count = [len(own.side) for own in rims]
+    length = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
+    ends_of_piece = _pieces(faces, rims, np.tile([0.0, 1.0], (len(side), 1)))
+    off = np.linalg.norm(ends_of_piece - corners, axis=2)
+    normal = np.repeat([_normal_of_plane(face.surface) for face in faces], count, axis=0)
+    along, across = np.zeros((2, len(side)))
+    if with_rates:
+        rates = [_rates(face, own, start) for face, own, start in zip(faces, rims, starts)]
+        along, across = np.concatenate(rates, axis=1) + off.sum(axis=1) / length
+    piece, part = np.zeros((len(side), len(PLACES), 3)), np.tile(PLACES, (len(side), 1))
+    # that of a plane is the side itself, once it is brought to the vertices
+    bent = [k for k, face in enumerate(faces) if not isinstance(face.surface, Plane)]
+    if bent:
+        rows = np.flatnonzero(np.repeat(np.isin(np.arange(len(faces)), bent), count))
+        piece[rows], part[rows] = _over_places(
+            [faces[k] for k in bent], [rims[k] for k in bent], corners[rows], ends_of_piece[rows]
+        )
+    return _Sides(triangle, side, ends, length, piece, part, off, normal, along, across)
 
 
-def _sides_of(face: FaceMoves, start: int, with_rates: bool) -> _Sides:
+def _rims_of(face: FaceMoves, start: int) -> _Rims:
     """Of one face, whose triangles are numbered from ``start`` on."""
     half_edges = np.flatnonzero(face.face.twins < 0)
     triangle, side = half_edges // 3, half_edges % 3
@@ -181,55 +210,68 @@ def _sides_of(face: FaceMoves, start: int, with_rates: bool) -> _Sides:
     turned = ends[:, 0] > ends[:, 1]
     at[turned], ends[turned] = at[turned, ::-1], ends[turned, ::-1]
     corners, uv = face.face.corners[triangle[:, None], at], face.face.uv[triangle[:, None], at]
-    length = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
-    ends_of_piece = _piece(face, corners, uv, np.tile([0.0, 1.0], (len(uv), 1)))
-    normal = np.zeros((len(half_edges), 3))
-    if isinstance(face.surface, Plane):
-        normal += face.surface.z
-    off = np.linalg.norm(ends_of_piece - corners, axis=2)
-    along, across = np.zeros((2, len(uv)))
-    if with_rates:
-        along, across = _rates(face, triangle, corners, uv) + off.sum(axis=1) / length
-    piece, part = _over_places(face, corners, uv, ends_of_piece)
-    return _Sides(triangle + start, side, ends, length, piece, part, off, normal, along, across)
+    return _Rims(triangle + start, side, ends, corners, uv)
 
 
-def _rates(face: FaceMoves, triangle: NDArray[np.intp], corners: Array, uv: Array) -> Array:
+def _normal_of_plane(surface: Surface) -> Array:
+    """(3,) 0 of another surface."""
+    return np.asarray(surface.z) if isinstance(surface, Plane) else np.zeros(3)
+
+
+def _rates(face: FaceMoves, rims: _Rims, start: int) -> Array:
     """(2, k) how fast pieces leave their sides, along these and across."""
     if isinstance(face.surface, Plane):
-        return np.zeros((2, len(uv)))
+        return np.zeros((2, len(rims.side)))
     if face.found.bends is None:
-        away = face.found.away[triangle]
-        return np.stack([slide_along(face.surface, corners, away), face.found.slope[triangle]])
+        own = rims.triangle - start
+        away = face.found.away[own]
+        return np.stack([slide_along(face.surface, rims.corners, away), face.found.slope[own]])
     rates = side_rates(
-        as_core_surface(face.surface), np.ascontiguousarray(corners), np.ascontiguousarray(uv)
-    )
+        as_core_surface(face.surface),
+        np.ascontiguousarray(rims.corners), np.ascontiguousarray(rims.uv),
+    )  # fmt: skip
     return np.asarray(rates.T)
 
 
-def _over_places(face: FaceMoves, corners: Array, uv: Array, ends: Array) -> tuple[Array, Array]:
-    """(k, 3, 3) the piece, its ends (k, 2, 3) brought to the corners, over PLACES, less these.
+def _over_places(
+    faces: list[FaceMoves], rims: list[_Rims], corners: Array, ends: Array
+) -> tuple[Array, Array]:
+    """(k, 3, 3) pieces, their ends (k, 2, 3) brought to the corners, over PLACES, less these.
 
-    And (k, 3) the part of the way between its ends.
+    And (k, 3) the part of the way between their ends. Of all faces at once.
     """
     along = corners[:, 1] - corners[:, 0]
     square = np.einsum("kc,kc->k", along, along)[:, None]
-    wanted = _along(corners, np.tile(PLACES, (len(uv), 1)))
+    first = np.tile(PLACES, (len(corners), 1))
+    wanted = _along(corners, first)
 
     def off(t: Array) -> tuple[Array, Array]:
-        places = _piece(face, corners, uv, t) - _along(ends - corners, t) - wanted
+        places = _pieces(faces, rims, t) - _along(ends - corners, t) - wanted
         return places, np.einsum("kqc,kc->kq", places, along) / square
 
     with np.errstate(divide="ignore", invalid="ignore"):
-        last = np.tile(PLACES, (len(uv), 1))
+        last = first
         places, value = off(last)
         t, before = last - value, value
         for _ in range(SECANTS):
             places, value = off(t)
+            if not (np.abs(value) > OVER).any():
+                return places, t
             step = np.where(value == before, 0.0, value * (t - last) / (value - before))
             last, before, t = t, value, t - step
         places, _ = off(t)
     return places, t
+
+
+def _pieces(faces: list[FaceMoves], rims: list[_Rims], t: Array) -> Array:
+    """(k, q, 3) at parts t (k, q) of the sides of all faces."""
+    parts = np.split(t, np.cumsum([len(own.side) for own in rims])[:-1])
+    return np.concatenate(
+        [
+            _piece(face, own.corners, own.uv, part)
+            for face, own, part in zip(faces, rims, parts, strict=True)
+        ]
+    )
 
 
 def _piece(face: FaceMoves, corners: Array, uv: Array, t: Array) -> Array:
