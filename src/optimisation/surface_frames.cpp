@@ -4,6 +4,7 @@ namespace surfmesh {
 namespace {
 
 constexpr double CLEARLY = 1.0 + 1e-9;  // factor on a bound, beyond which rounding does not count
+constexpr double STANDSTILL = 1e-300;   // a squared speed of 0, as at a pole that v^2 leads to
 constexpr double DEGENERATE = 1e-10;    // |r_x x r_y| over |r_x|^2 + |r_y|^2: below, no normal
 
 /// A 2 x 2 matrix by rows.
@@ -112,12 +113,12 @@ void set_frame(Triangulation& t, SurfaceFrames& s, Vertex v, const SurfacePoint&
     s.point[v] = at.r;
     s.drift[v] = 0.0;
     s.normal[v] = (area > DEGENERATE * (e + g) ? 1.0 / area : 0.0) * n;
-    const double floor = (e + g) / (largest * largest) + 1e-300;
+    const double floor = (e + g) / (largest * largest) + STANDSTILL;
     e += floor;
     g += floor;
     // I^(-1/2) = (tr + 2 s)^(-1/2) (Id + s I^-1), s = sqrt(det I)
     const double det = std::max(e * g - f * f, floor * floor);
-    const double root = std::sqrt(det);
+    const double root = std::max(std::sqrt(det), STANDSTILL);
     const double scale = 1.0 / std::sqrt(e + g + 2.0 * root);
     const SizeTensor m = {scale * (1.0 + g / root), -scale * f / root, scale * (1.0 + e / root)};
     t.size[v] = h * m;

@@ -124,12 +124,35 @@ def curves_on_their_faces(measured: Measured, unit: str) -> list[str]:
         replaced.append(number)
     if not replaced:
         return []
+    _vertices_at_their_edges(measured, replaced)
     several = len(replaced) > 1
     return [
         f"{'edges' if several else 'edge'} {listed([str(n) for n in sorted(replaced)])}: curve in "
         f"space replaced by the p-curve on a face, which it strayed from by up to "
         f"{max(loose[n] for n in replaced):.2g} {unit}"
     ]
+
+
+def _vertices_at_their_edges(measured: Measured, replaced: list[int]) -> None:
+    """Put vertices, in place, where all their edges end, of which these have new curves.
+
+    The vertex of an edge stood at the end of the curve that is gone: of a circle whose p-curves
+    start at another of its points, right across.
+    """
+    edges, vertices = measured.edges, measured.vertices
+    at_replaced = {v for number in replaced for v in (edges[number].start, edges[number].end)}
+    ends: dict[int, list[np.ndarray]] = {vertex: [] for vertex in at_replaced}
+    held = {v for edge in edges if edge.curve is None for v in (edge.start, edge.end)}  # at poles
+    for edge in edges:
+        if edge.curve is not None and not at_replaced.isdisjoint((edge.start, edge.end)):
+            for vertex, point in zip((edge.start, edge.end), edge.evaluate(ENDS)[0]):
+                if vertex in at_replaced:
+                    ends[vertex].append(point)
+    for vertex in sorted(at_replaced - held):
+        known, points = vertices[vertex], ends[vertex]
+        distance = min(norm(point - known.point) for point in points)
+        if max(norm(point - points[0]) for point in points) < AGREE * distance:
+            vertices[vertex] = replace(known, point=np.mean(points, axis=0))
 
 
 def tolerances_that_hold(measured: Measured, unit: str) -> list[str]:

@@ -70,3 +70,13 @@ def test_the_background_interpolates_w():
     places = np.random.default_rng(0).uniform(0, 1, (3, 2))
     for row in background.metric_roots_3d(places):
         np.testing.assert_allclose(metric_root_3d(row), w, rtol=1e-12)
+
+
+def test_where_a_surface_stands_still_sizes_are_finite():
+    """As at the pole of (v^2 cos(u), v^2 sin(u), v^2), where both derivatives are 0."""
+    mesh, s, _, _, points, background = embedded()
+    s = SurfaceFrames(4, False)
+    still = np.zeros((4, 3))
+    s.set(mesh, background, np.arange(4, dtype=np.int32), points, still, still, 1e6)
+    assert np.isfinite(mesh.size).all()
+    assert np.isfinite(chord(s, 0, 1)).all() and np.isfinite(lift(s, 0, 1.0, 0.0)).all()
