@@ -3,7 +3,9 @@
 Exit status 0: done and valid; 1: a mesh was made but its report is not clean; 2: bad input or
 usage, told in one line on standard error; 3: an error in surfmesh itself, told in one line too.
 
-arguments: what can be typed; the options of ``Sizing`` and of ``load`` are named there alone.
+option_groups: options that several commands have; those of ``Sizing`` and of ``load`` are named
+    there alone.
+arguments: what can be typed: the commands, each with its own options.
 commands: what each command does.
 inputs: the sizes asked for, and the surface or mesh that INPUT names.
 outputs: the files beside the mesh.

@@ -1,11 +1,23 @@
 """What can be typed: commands, options, and their help. Nothing heavy is imported here."""
 
 import argparse
-import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NoReturn, TypeAlias
 
+from surfmesh.cli.option_groups import (
+    BY_ROUNDING,
+    READING,
+    SIZES,
+    add_cad,
+    add_json,
+    add_reading,
+    add_second_opinion,
+    add_sizes,
+    number,
+    positive,
+    whole_number,
+)
 from surfmesh.cli.terminal import complain
 from surfmesh.errors import did_you_mean
 
@@ -13,7 +25,6 @@ _VALUES = {  # option -> values it takes, which may begin with a minus
     "--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2, "--at": 3, "--origin": 2, "--box": 4,
 }  # fmt: skip
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-_BY_ROUNDING = "by-rounding"  # --imprint without a tolerance
 _EXAMPLES = """examples:
   surfmesh mesh wavy -o wavy.vtu --chord 0.05 --picture wavy.png
   surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
@@ -50,7 +61,7 @@ def _meant(message: str) -> str:
     word = own_word(found[1])
     if word is not None:
         return f": here it is called --{word.replace('_', '-')}"
-    near = did_you_mean(found[1], [name.replace("_", "-") for name in _SIZES])
+    near = did_you_mean(found[1], [name.replace("_", "-") for name in SIZES])
     return near.replace("'", "--", 1).replace("'", "")
 
 
@@ -64,9 +75,9 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
-    given = {name: held.pop(name) for name in (*_SIZES, "proof", "vertices") if name in held}
+    given = {name: held.pop(name) for name in (*SIZES, "proof", "vertices") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}
-    options.reading = {name: held.pop(name) for name in _READING if name in held}
+    options.reading = {name: held.pop(name) for name in READING if name in held}
     return options
 
 
@@ -84,7 +95,7 @@ def _imprint_alone(argv: Sequence[str]) -> list[str]:
     words = list(argv)
     for place, (word, after) in enumerate(zip(words, [*words[1:], ""])):
         if word == "--imprint" and not _NUMBER.fullmatch(after):
-            words[place] = f"--imprint={_BY_ROUNDING}"
+            words[place] = f"--imprint={BY_ROUNDING}"
     return words
 
 
@@ -146,9 +157,9 @@ def _add_intersect(commands: _Commands) -> None:
 
 def _add_made(mesh: argparse.ArgumentParser) -> None:
     """What is asked of a mesh that is made, checked and written."""
-    _add_sizes(mesh)
+    add_sizes(mesh)
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
-    _add_cad(mesh)
+    add_cad(mesh)
     mesh.add_argument(
         "--simplify",
         action="store_true",
@@ -156,7 +167,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
     )
     mesh.add_argument(
         "--order",
-        type=_whole(1, 2),
+        type=whole_number(1, 2),
         metavar="1|2",
         help="2: nodes amid the edges too; --chord is then that of the curved triangles",
     )
@@ -174,7 +185,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         "--target", choices=("abaqus", "calculix"), default="", help="whose elements an .inp names"
     )
     mesh.add_argument(
-        "--jobs", type=_whole(1, 1000), help="threads that mesh (default: all processors)"
+        "--jobs", type=whole_number(1, 1000), help="threads that mesh (default: all processors)"
     )
     mesh.add_argument(
         "--scheduler", metavar="ADDRESS",
@@ -186,8 +197,8 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
     mesh.add_argument(
         "--manifest", metavar="JSON", help="write versions, options and hashes, to compare"
     )
-    _add_second_opinion(mesh)
-    _add_json(mesh)
+    add_second_opinion(mesh)
+    add_json(mesh)
 
 
 def _add_check(commands: _Commands) -> None:
@@ -196,13 +207,13 @@ def _add_check(commands: _Commands) -> None:
     check.add_argument(
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
-    _add_units(check)
+    add_reading(check)
     check.add_argument(
         "--prove", action="store_true",
         help="bound the distance from the surface, both ways, with round-off",
     )  # fmt: skip
-    _add_second_opinion(check)
-    _add_json(check)
+    add_second_opinion(check)
+    add_json(check)
 
 
 def _add_view(commands: _Commands) -> None:
@@ -213,10 +224,10 @@ def _add_view(commands: _Commands) -> None:
     view.add_argument("--circles", action="store_true", help="draw the packing on the surface")
     view.add_argument("--directions", action="store_true", help="draw principal directions")
     view.add_argument(
-        "--worst", type=_whole(1), help="how many of the worst triangles are outlined"
+        "--worst", type=whole_number(1), help="how many of the worst triangles are outlined"
     )
-    _add_sizes(view)
-    _add_cad(view)
+    add_sizes(view)
+    add_cad(view)
 
 
 def _add_report(commands: _Commands) -> None:
@@ -224,10 +235,10 @@ def _add_report(commands: _Commands) -> None:
     report.add_argument("input", metavar="INPUT", help=_ANYTHING)
     report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
     report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
-    _add_sizes(report)
-    _add_cad(report)
-    _add_second_opinion(report)
-    _add_json(report)
+    add_sizes(report)
+    add_cad(report)
+    add_second_opinion(report)
+    add_json(report)
 
 
 def _add_compare(commands: _Commands) -> None:
@@ -239,55 +250,55 @@ def _add_compare(commands: _Commands) -> None:
         metavar="OTHER",
         help="manifest of another run, or a folder with the files (default: that of MANIFEST)",
     )
-    _add_json(compare)
+    add_json(compare)
 
 
 def _add_explain(commands: _Commands) -> None:
     explain = _command(commands, "explain", "which rule decides the size at a point")
     explain.add_argument("input", metavar="INPUT", help=_MODEL)
     explain.add_argument(
-        "--at", nargs=3, type=_number, required=True, metavar=("X", "Y", "Z"), help="the point"
+        "--at", nargs=3, type=number, required=True, metavar=("X", "Y", "Z"), help="the point"
     )
-    _add_sizes(explain)
-    _add_units(explain)
-    _add_json(explain)
+    add_sizes(explain)
+    add_reading(explain)
+    add_json(explain)
 
 
 def _add_estimate(commands: _Commands) -> None:
     estimate = _command(commands, "estimate", "triangles and memory, before meshing")
     estimate.add_argument("input", metavar="INPUT", help=_MODEL)
-    _add_sizes(estimate)
-    _add_units(estimate)
-    _add_json(estimate)
+    add_sizes(estimate)
+    add_reading(estimate)
+    add_json(estimate)
 
 
 def _add_pack(commands: _Commands) -> None:
     pack = _command(commands, "pack", "pack circles over the plane, as in the paper")
     law = pack.add_mutually_exclusive_group(required=True)
-    law.add_argument("--radius", type=_positive, help="one radius for all")
-    law.add_argument(
-        "--uniform", nargs=2, type=_positive, metavar=("LO", "HI"), help="random radii"
-    )
-    pack.add_argument("--seed", type=_whole(0), default=0, help="of the random radii (default 0)")
+    law.add_argument("--radius", type=positive, help="one radius for all")
+    law.add_argument("--uniform", nargs=2, type=positive, metavar=("LO", "HI"), help="random radii")
     pack.add_argument(
-        "--origin", nargs=2, type=_number, default=(0.0, 0.0), metavar=("X", "Y"),
+        "--seed", type=whole_number(0), default=0, help="of the random radii (default 0)"
+    )
+    pack.add_argument(
+        "--origin", nargs=2, type=number, default=(0.0, 0.0), metavar=("X", "Y"),
         help="where the packing begins (default 0 0)",
     )  # fmt: skip
-    pack.add_argument("--count", type=_whole(1), help="stop at so many circles")
-    pack.add_argument("--distance", type=_positive, help="stop at this distance from the origin")
+    pack.add_argument("--count", type=whole_number(1), help="stop at so many circles")
+    pack.add_argument("--distance", type=positive, help="stop at this distance from the origin")
     pack.add_argument(
-        "--box", nargs=4, type=_number, metavar=("X0", "Y0", "X1", "Y1"), help="stop outside of it"
+        "--box", nargs=4, type=number, metavar=("X0", "Y0", "X1", "Y1"), help="stop outside of it"
     )
     pack.add_argument("-o", "--output", metavar="SVG|PNG", help="draw the packing")
     pack.add_argument(
         "--show", default="both", choices=("circles", "mesh", "both"), help="what is drawn"
     )
-    _add_json(pack)
+    add_json(pack)
 
 
 def _add_gallery(commands: _Commands) -> None:
     gallery = _command(commands, "gallery", "list the ready-made surfaces")
-    _add_json(gallery)
+    add_json(gallery)
 
 
 _COLOURS = (
@@ -305,141 +316,6 @@ _DESCRIPTION = f"""Triangle meshes of curved surfaces, checked against the true 
 In:  .step .stp .iges .igs .brep (CAD models), .toml (formulas, planar domains), .svg (drawings),
      .py (CadQuery, with --run-python), or a name of the gallery
 Out: {_FORMATS}"""
-
-
-def _add_sizes(parser: argparse.ArgumentParser) -> None:
-    sizes = parser.add_argument_group(
-        "sizes, in model units; any of them sets aside the sizes that INPUT brings; without any, "
-        "chord is a thousandth of the diagonal"
-    )
-    for name, (kind, said) in _SIZES.items():
-        sizes.add_argument(f"--{name.replace('_', '-')}", type=kind, help=said)
-    sizes.add_argument(
-        "--proof", action="store_const", const=True, help="prove that the chord holds"
-    )
-    sizes.add_argument(
-        "--vertices", choices=("on_surface", "balanced"),
-        help="balanced: off the surface, so that it lies on both sides and volumes are kept",
-    )  # fmt: skip
-    sizes.add_argument(
-        "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
-    )
-
-
-def _add_cad(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--no-strict", action="store_true", help="leave out CAD faces that cannot be meshed"
-    )
-    _add_units(parser)
-
-
-def _add_units(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--run-python", action="store_true",
-        help="run a program that you trust (.py) and take the CadQuery object that it calls result",
-    )  # fmt: skip
-    parser.add_argument(
-        "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in, ft"
-    )
-    parser.add_argument(
-        "--imprint",
-        nargs="?",
-        type=_near,
-        default=False,
-        metavar="TOL",
-        help="bodies of a CAD model that touch (within TOL) share their faces",
-    )
-    parser.add_argument(
-        "--sew",
-        type=_positive,
-        metavar="TOL",
-        help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
-    )
-    parser.add_argument(
-        "--time-limit",
-        type=_positive,
-        metavar="SECONDS",
-        help="of processor time for reading a CAD file (default 8 and 25 for each MB of it)",
-    )
-    parser.add_argument(
-        "--memory-limit",
-        type=_positive,
-        metavar="MB",
-        help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
-    )
-    parser.add_argument(
-        "--no-isolate",
-        dest="isolate",
-        action="store_false",
-        help="read a CAD file that you trust in this process, without limits",
-    )
-
-
-def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--second-opinion", action="store_true",
-        help="ask trimesh and pyvista too; where they disagree the mesh is not clean",
-    )  # fmt: skip
-
-
-def _add_json(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--json", action="store_true", help="one JSON object on standard output, nothing else"
-    )
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a positive number, not '{_brief(text)}'")
-    return value
-
-
-def _near(text: str) -> bool | float:
-    return True if text == _BY_ROUNDING else _positive(text)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"must be a number, not '{_brief(text)}'") from None
-
-
-def _whole(least: int, most: int = 10**15) -> Callable[[str], int]:
-    """The type of whole numbers from ``least`` to ``most``."""
-
-    def whole(text: str) -> int:
-        is_short = text.isdecimal() and len(text) < 100  # int() takes thousands of digits badly
-        if not is_short or not least <= int(text) <= most:
-            span = f"from {least}" if most == 10**15 else f"from {least} to {most}"
-            raise argparse.ArgumentTypeError(f"must be a whole number {span}, not '{_brief(text)}'")
-        return int(text)
-
-    return whole
-
-
-_SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
-    "chord": (_positive, "largest distance between mesh and surface"),
-    "angle": (_positive, "largest angle between neighbours, degrees"),
-    "size": (_positive, "wanted edge length"),
-    "min_size": (_positive, "no edge is wanted shorter"),
-    "max_size": (_positive, "no edge is wanted longer"),
-    "growth": (_positive, "largest ratio of neighbouring sizes (default 1.2)"),
-    "anisotropy": (_positive, "largest ratio of two sizes at a point (default 1: isotropic)"),
-    "volume": (_positive, "largest relative error of solids' volumes, as 0.005"),
-    "gap": (_positive, "at least so many triangles across thin faces and gaps"),
-    "triangles": (_whole(4), "about so many in all, instead of chord, angle, size"),
-    "limit": (_whole(1), "most triangles (default 20 million)"),
-}
-_READING = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")  # options of load
-
-
-def _brief(text: str) -> str:
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 class _Version(argparse.Action):

@@ -19,6 +19,7 @@ from surfmesh.cli.inputs import (
     on_surface,
     refuse_options_of_meshing,
     shown_mesh,
+    surface_and_sizing,
     surface_begun,
 )
 from surfmesh.cli.outputs import (
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
     from surfmesh.api import Sizes
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.geometry.surface import Surface
+    from surfmesh.meshing.estimate.estimation import Estimate
+    from surfmesh.meshing.explain.explanation import Explanation
 
 
 def mesh(options: Namespace) -> bool:
@@ -254,34 +257,29 @@ def report(options: Namespace) -> bool:
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
-    with surface_begun(options.input, options) as surface_wanted:
-        sizing = asked_sizing(options)
+    surface, sizing = surface_and_sizing(options)
 
-        from surfmesh import api
+    from surfmesh import api
 
-        surface = surface_wanted()
-    found = api.explain(surface, sizing, options.at)
-    if options.json:
-        say_json(found.to_dict())
-    else:
-        say(found)
+    _say_found(api.explain(surface, sizing, options.at), options)
     return True
 
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
-    with surface_begun(options.input, options) as surface_wanted:
-        sizing = asked_sizing(options)
+    surface, sizing = surface_and_sizing(options)
 
-        from surfmesh import api
+    from surfmesh import api
 
-        surface = surface_wanted()
-    found = api.estimate(surface, sizing)
+    _say_found(api.estimate(surface, sizing), options)
+    return True
+
+
+def _say_found(found: Explanation | Estimate, options: Namespace) -> None:
     if options.json:
         say_json(found.to_dict())
     else:
         say(found)
-    return True
 
 
 def pack(options: Namespace) -> bool:

@@ -83,6 +83,18 @@ def surface_begun(
         yield lambda: named_surface(name, options)
 
 
+def surface_and_sizing(
+    options: Namespace,
+) -> tuple[Surface | CadModel, Sizing | dict[str, Sizing] | None]:
+    """The surface or model of INPUT, and the sizes asked for."""
+    with surface_begun(options.input, options) as surface_wanted:
+        sizing = asked_sizing(options)
+
+        import surfmesh.api  # noqa: F401  while a child process reads a CAD file
+
+        return surface_wanted(), sizing
+
+
 def _formulas(options: Namespace) -> dict[str, Any]:
     """What was given of --x --y --z --u --v and --param, by name."""
     given = {name: getattr(options, name, None) for name in (*"xyzuv", "param")}
@@ -169,12 +181,10 @@ def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
     if Path(options.input).suffix.lower() in FORMATS | IN_PIECES:
         refuse_options_of_meshing(options, f"{options.input} is a mesh already")
         return read(options.input)
-    with surface_begun(options.input, options) as surface_wanted:
-        sizing = asked_sizing(options)
+    surface, sizing = surface_and_sizing(options)
 
-        from surfmesh import api
+    from surfmesh import api
 
-        surface = surface_wanted()
     return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
 
 
