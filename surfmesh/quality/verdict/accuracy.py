@@ -161,6 +161,20 @@ class WithoutBounds(Remark):
 
 
 @dataclass(frozen=True, kw_only=True)
+class NoSurfaceToProve(Remark):
+    """A proof that is asked for of a mesh without surfaces."""
+
+    kind: Kind = Kind.PROOF
+
+    @property
+    def text(self) -> str:
+        """Why nothing is, and what would help."""
+        return (
+            "nothing is proved: the mesh carries no surface; a file needs the one that it was made of"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class MinSizeForbids(Remark):
     """A ``min_size`` that keeps faces from what was asked for."""
 
@@ -274,9 +288,11 @@ def not_proved(measured: Measurements) -> Iterator[Problem]:
 
 
 def without_bounds(measured: Measurements) -> Iterator[Remark]:
-    """Faces of which nothing can be proved."""
+    """Faces of which nothing can be proved, or that there are none."""
     found = measured.proof
-    if found is not None and found.without_bounds:
+    if found is None:
+        yield NoSurfaceToProve()
+    elif found.without_bounds:
         first = found.without_bounds[0]
         yield WithoutBounds(faces=found.without_bounds, name=measured.mesh.face_name(first))
 
