@@ -59,6 +59,15 @@ double error_of_leaves(double own, double parents) {
     return own * std::clamp(part, SMOOTH_PART, KINK_PART);
 }
 
+constexpr Patch NO_NODES{{NIL, NIL, NIL, NIL, NIL, NIL, NIL, NIL, NIL}};
+
+/// The patch of a child as far as its parent knows it: its corners.
+Patch quarter(const Patch& parent, int child) {
+    Patch patch = NO_NODES;
+    for (int c = 0; c < 4; ++c) patch.node[CORNERS[c]] = parent.node[CORNERS_OF_CHILDREN[child][c]];
+    return patch;
+}
+
 /// The metric area at a node: 1 / det H.
 double density(SizeTensor metric_root) { return determinant(metric_root); }
 
@@ -68,6 +77,7 @@ FieldBuilder::FieldBuilder(FieldPlan plan) : plan_(std::move(plan)), cells_(plan
     fresh_.resize(cells_.leaves().size(), 1);
     deep_.resize(cells_.leaves().size(), 0);
     error_.resize(cells_.leaves().size(), CellError{0.0, 0.0});
+    patches_.resize(cells_.leaves().size(), NO_NODES);
 }
 
 FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
@@ -98,20 +108,20 @@ FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
         const std::size_t few = round <= DEPTH ? 0 : leaves.size() / 1000;
         if (count <= few && !is_demanded) break;
         cells_.balance(all(marks.split));
-        replace(marks);
+        const std::size_t kept = replace(marks);
         if (static_cast<double>(cells_.total()) > plan_.free_cells &&
             static_cast<double>(cells_.total()) > most_cells())
             return refused(all(marks.split));
-        const std::size_t first = patches_.size();
-        if (!make_patches(first, law)) return FAILED;
+        if (!make_patches(kept, law)) return FAILED;
     }
     finished_ = true;
     return DONE_WELL;
 }
 
-/// Split the marked cells: their children come behind the others, and are fresh.
-void FieldBuilder::replace(const Marks& marks) {
-    Array<Patch> patches;
+/// Split the marked cells: their children come behind the others, and are fresh; of their nodes they
+/// have the corners. Returns how many are kept.
+std::size_t FieldBuilder::replace(const Marks& marks) {
+    Array<Patch> patches, of_quarters;
     Array<std::uint8_t> deep, children;
     Array<CellError> error, of_children;
     for (std::size_t k = 0; k < marks.split.size(); ++k) {
@@ -121,6 +131,7 @@ void FieldBuilder::replace(const Marks& marks) {
             error.push_back(error_[k]);
         } else {
             for (int q = 0; q < 4; ++q) {
+                of_quarters.push_back(quarter(patches_[k], q));
                 children.push_back(marks.deep[k]);
                 of_children.push_back({0.0, error_[k].own});
             }
@@ -130,12 +141,15 @@ void FieldBuilder::replace(const Marks& marks) {
     for (const CellError value : of_children) error.push_back(value);
     before_ = std::move(patches_);
     patches_ = std::move(patches);
+    const std::size_t kept = patches_.size();
+    for (const Patch& patch : of_quarters) patches_.push_back(patch);
     deep_ = std::move(deep);
     error_ = std::move(error);
     leaves_before_ = Array<FieldCell>(cells_.leaves());
     cells_.split(all(marks.split));
-    fresh_ = Array<std::uint8_t>(patches_.size(), 0);
+    fresh_ = Array<std::uint8_t>(kept, 0);
     fresh_.resize(cells_.leaves().size(), 1);
+    return kept;
 }
 
 // sizes

@@ -19,7 +19,7 @@
 #include "fields/field_cells.hpp"
 #include "fields/field_nodes.hpp"
 #include "fields/gradation.hpp"
-#include "fields/node_table.hpp"
+#include "fields/key_table.hpp"
 
 namespace surfmesh {
 
@@ -125,7 +125,7 @@ class FieldBuilder {
                                   bool deep, std::span<std::uint8_t> found) const;
     [[nodiscard]] double triangles(const FieldCell& cell, double density) const;
     [[nodiscard]] double most_cells() const;
-    void replace(const Marks& marks);
+    [[nodiscard]] std::size_t replace(const Marks& marks);
 
     FieldPlan plan_;
     FieldCells cells_;
@@ -137,9 +137,10 @@ class FieldBuilder {
     struct CellError {
         double own, parents;  // as ``patch_error`` has them; 0: not known
     };
-    Array<CellError> error_;  // of the leaves
-    NodeTable table_;
-    Array<std::int64_t> key_;  // of the nodes
+    Array<CellError> error_;      // of the leaves
+    KeyTable turn_;               // of the nodes by their keys, but for those amid a patch
+    Array<Node> number_in_turn_;  // of the nodes, in the order in which they were asked for
+    Array<std::int64_t> key_;     // of the nodes
     struct SideNode {
         double t;
         Node node;

@@ -10,6 +10,18 @@ namespace {
 constexpr std::size_t NODES_AT_ONCE = 250'000;  // whose sizes are asked for at a time
 constexpr std::size_t NODES_TO_CONVERT = 4096;
 constexpr double SAME_PLACE = 1e-9;  // along a side, of its length
+constexpr int MIDDLE = 4;            // of a patch
+
+/// A node that does not exist yet.
+struct AskedNode {
+    std::int64_t key;
+    Turn turn;
+};
+
+bool has_smaller_key(const AskedNode& a, const AskedNode& b) { return a.key < b.key; }
+
+/// What a patch has in place of a node that waits for its number; and the turn, given that.
+constexpr std::int32_t waiting_for(std::int32_t turn) { return -2 - turn; }
 
 }  // namespace
 
@@ -31,34 +43,39 @@ Array<Point2> FieldBuilder::plane() const {
     return found;
 }
 
-/// The nine nodes of the leaves from `first` on, creating those that do not exist yet.
+/// The nodes that the patches of the leaves from `first` on lack, creating those that do not exist
+/// yet, which are numbered by their keys.
 bool FieldBuilder::make_patches(std::size_t first, NodeLaw& law) {
     const auto leaves = cells_.leaves();
     const std::int64_t step = stride();
-    const auto key_at = [&](const FieldCell& cell, int i) {
-        return (cell.x + cell.half() * (i % 3)) * step + cell.y + cell.half() * (i / 3);
-    };
-    constexpr Node ASKED_FOR = -2;
-    Array<std::int64_t> wanted;
+    Array<AskedNode> asked;
     for (std::size_t k = first; k < leaves.size(); ++k) {
-        Patch patch{};
+        const FieldCell& cell = leaves[k];
         for (int i = 0; i < 9; ++i) {
-            Node& node = table_[key_at(leaves[k], i)];
-            patch.node[i] = node == NIL ? ASKED_FOR : node;
+            Node& node = patches_[k].node[i];
             if (node != NIL) continue;
-            node = ASKED_FOR;
-            wanted.push_back(key_at(leaves[k], i));
+            const std::int64_t key =
+                (cell.x + cell.half() * (i % 3)) * step + cell.y + cell.half() * (i / 3);
+            Turn alone = NIL;  // nobody else asks for the node in the middle
+            Turn& turn = i == MIDDLE ? alone : turn_[key];
+            if (turn == NIL) {
+                turn = static_cast<Turn>(number_in_turn_.size());
+                number_in_turn_.push_back(NIL);
+                asked.push_back({key, turn});
+            }
+            node = waiting_for(turn);
         }
-        patches_.push_back(patch);
     }
-    std::sort(wanted.begin(), wanted.end());
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        table_[wanted[k]] = static_cast<Node>(key_.size() + k);
-    if (!create({wanted.data(), wanted.size()}, law)) return false;
+    std::sort(asked.begin(), asked.end(), has_smaller_key);
+    Array<std::int64_t> keys;
+    for (const AskedNode& one : asked) {
+        number_in_turn_[one.turn] = static_cast<Node>(key_.size() + keys.size());
+        keys.push_back(one.key);
+    }
+    if (!create({keys.data(), keys.size()}, law)) return false;
     for (std::size_t k = first; k < leaves.size(); ++k)
-        for (int i = 0; i < 9; ++i)
-            if (Node& node = patches_[k].node[i]; node == ASKED_FOR)
-                node = table_[key_at(leaves[k], i)];
+        for (Node& node : patches_[k].node)
+            if (node < 0) node = number_in_turn_[waiting_for(node)];
     return true;
 }
 
@@ -132,11 +149,11 @@ Background FieldBuilder::background() {
     made.child = cells_.child();
     made.corner.resize(made.child.size(), CellCorners{});
     const std::size_t first = made.child.size() - 4 * leaves;
-    constexpr int quarter[4][4] = {{0, 1, 3, 4}, {1, 2, 4, 5}, {3, 4, 6, 7}, {4, 5, 7, 8}};
     for (std::size_t k = 0; k < leaves; ++k)
         for (std::size_t q = 0; q < 4; ++q)
             for (std::size_t c = 0; c < 4; ++c)
-                made.corner[first + 4 * k + q].node[c] = patches_[k].node[quarter[q][c]];
+                made.corner[first + 4 * k + q].node[c] =
+                    patches_[k].node[CORNERS_OF_CHILDREN[q][c]];
     made.metric_root.resize(nodes.count());
     for_each_block(nodes.count(), NODES_TO_CONVERT, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n)

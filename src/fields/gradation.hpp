@@ -30,6 +30,11 @@ struct Patch {
     Node node[9];
 };
 
+/// The places of the corners of a patch, and in it those of its four children.
+inline constexpr int CORNERS[4] = {0, 2, 6, 8};
+inline constexpr int CORNERS_OF_CHILDREN[4][4] = {
+    {0, 1, 3, 4}, {1, 2, 4, 5}, {3, 4, 6, 7}, {4, 5, 7, 8}};
+
 /// Two nodes that are neighbours across a joint of two sides.
 struct JoinedNodes {
     Node a, b;

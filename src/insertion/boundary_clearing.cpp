@@ -123,8 +123,9 @@ std::int64_t swap_bad(Triangulation& t) {
     std::int64_t total = 0;
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         std::int64_t swaps = 0;
-        for (HalfEdge e = 0; e < 3 * t.triangles(); ++e)
-            if (shape[e / 3] < BAD_SHAPE && t.fixed[e] == 0 && swap_if_better(t, e, shape)) ++swaps;
+        for (Triangle k = 0; k < t.triangles(); ++k)
+            for (HalfEdge e = 3 * k; shape[k] < BAD_SHAPE && e < 3 * k + 3; ++e)
+                if (t.fixed[e] == 0 && swap_if_better(t, e, shape)) ++swaps;
         total += swaps;
         if (swaps == 0) break;
     }

@@ -302,8 +302,10 @@ void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks&
         });
     if (t.parts.empty()) return;
     MovingVertex m;
-    for (m.v = 0; m.v < t.vertices(); ++m.v)
-        if (stars.is_shared(m.v)) pass.visit(m, moved);
+    const Vertex end = t.vertices();
+    for (m.v = next_marked(stars.shared, 0, end); m.v < end;
+         m.v = next_marked(stars.shared, m.v + 1, end))
+        pass.visit(m, moved);
 }
 
 }  // namespace surfmesh

@@ -234,6 +234,22 @@ def test_degrees_are_kept_up_to_date():
     assert check_domain(t, 1) is None
 
 
+@pytest.mark.parametrize("name, size", [("two_peaks", 0.08), ("pierced_saddle", 0.1)])
+def test_swaps_leave_stars_as_if_they_were_found_anew(name, size):
+    state, _ = state_of(name, size=size)
+    t = state.t
+    for step in ("swap_for_degree", "smooth", "swap", "smooth", "swap"):
+        state.find_stars()
+        swaps = state.swaps
+        getattr(state, step)()
+        assert step != "swap_for_degree" or state.swaps > swaps
+        leaving = (3 * live_triangles(t)[:, None] + np.arange(3)).ravel()
+        last = np.full(t.vertices, NIL)
+        np.maximum.at(last, t.tri[leaving], leaving)
+        assert (state.stars.start == last).all(), step
+        assert (state.stars.degree == counted_degrees(t)[: t.vertices]).all(), step
+
+
 def test_frozen_vertices_are_those_on_the_border_or_a_fixed_edge():
     state, domain = state_of("pierced_saddle", size=0.15)
     state.find_stars()

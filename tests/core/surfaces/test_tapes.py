@@ -190,7 +190,7 @@ def test_wrong_arguments_are_refused():
 
 
 def angles_tape(second: str, overwritten: bool) -> Tape:
-    """Sine of an angle, then its sine or cosine once more, with what register is free in between."""
+    """Sine of an angle, then sine or cosine once more, with what register is free in between."""
     steps = [
         Instruction("add", 3, (0, 1)),
         Instruction("sin", 4, (3,)),

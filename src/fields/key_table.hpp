@@ -1,26 +1,29 @@
-// Nodes by their place on the finest grid: a table with open addressing, which grows.
+// Nodes by their place on the finest grid, as turns in which they were asked for: a table with open
+// addressing, which grows.
 #pragma once
 
 #include <cstdint>
 
-#include "fields/background.hpp"
 #include "values/array.hpp"
+#include "values/conventions.hpp"
 
 namespace surfmesh {
 
-class NodeTable {
-  public:
-    NodeTable() { clear(1024); }
+using Turn = std::int32_t;
 
-    /// The node of a key, which is NIL where the key is new; the key is in the table then.
-    Node& operator[](std::int64_t key) {
+class KeyTable {
+  public:
+    KeyTable() { clear(1024); }
+
+    /// The turn of a key, which is NIL where the key is new; the key is in the table then.
+    Turn& operator[](std::int64_t key) {
         if (2 * (count_ + 1) > key_.size()) grow();
         const std::size_t at = slot(key);
         if (key_[at] == FREE) {
             key_[at] = key;
             ++count_;
         }
-        return node_[at];
+        return turn_[at];
     }
 
   private:
@@ -29,15 +32,15 @@ class NodeTable {
     void clear(std::size_t slots) {
         count_ = 0;
         key_ = Array<std::int64_t>(slots, FREE);
-        node_ = Array<Node>(slots, NIL);
+        turn_ = Array<Turn>(slots, NIL);
     }
 
     void grow() {
         const Array<std::int64_t> key = std::move(key_);
-        const Array<Node> node = std::move(node_);
+        const Array<Turn> turn = std::move(turn_);
         clear(4 * key.size());
         for (std::size_t k = 0; k < key.size(); ++k)
-            if (key[k] != FREE) (*this)[key[k]] = node[k];
+            if (key[k] != FREE) (*this)[key[k]] = turn[k];
     }
 
     [[nodiscard]] std::size_t slot(std::int64_t key) const {
@@ -52,7 +55,7 @@ class NodeTable {
 
     std::size_t count_ = 0;
     Array<std::int64_t> key_;  // a power of two of them
-    Array<Node> node_;
+    Array<Turn> turn_;
 };
 
 }  // namespace surfmesh
