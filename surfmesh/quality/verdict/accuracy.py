@@ -170,7 +170,7 @@ class NoSurfaceToProve(Remark):
     def text(self) -> str:
         """Why nothing is, and what would help."""
         return (
-            "nothing is proved: the mesh carries no surface; a file needs the one that it was made of"
+            "nothing is proved: the mesh carries no surface; name the one of a file beside it"
         )
 
 
