@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "triangulation/segments.hpp"
 #include "values/array.hpp"
@@ -25,7 +26,33 @@ struct EdgeNetwork {
     std::size_t vertices;                 // how many there are
 };
 
-/// least_step: of the way between two samples.
+/// Grades sizes along the edges of one network, as often as it is asked to.
+class EdgeGradation {
+  public:
+    /// least_step: of the way between two samples.
+    EdgeGradation(const EdgeNetwork& edges, double slope, double least_step);
+    [[nodiscard]] Array<double> graded(std::span<const double> sizes) const;
+
+  private:
+    struct End {
+        std::size_t edge;
+        bool at_start;
+    };
+    class Spreading;
+
+    [[nodiscard]] std::int64_t first(std::size_t e) const { return edges_.first[e]; }
+    [[nodiscard]] std::int64_t last(std::size_t e) const { return edges_.first[e + 1] - 1; }
+    [[nodiscard]] bool is_empty(std::size_t e) const { return last(e) < first(e); }
+    void link_vertices();
+
+    EdgeNetwork edges_;
+    double slope_;
+    Array<double> step_;             // from each sample to the next one
+    Array<std::int64_t> first_use_;  // of the vertices: where their ends of edges begin
+    std::vector<End> uses_;
+};
+
+/// The same once.
 Array<double> graded_along_edges(const EdgeNetwork& edges, std::span<const double> sizes,
                                  double slope, double least_step);
 

@@ -151,7 +151,7 @@ class GradationOverFaces {
   public:
     GradationOverFaces(const EdgeNetwork& edges, const EdgesOfFaces& faces, double slope,
                        double least_step)
-        : edges_(edges), faces_(faces), slope_(slope), least_step_(least_step) {}
+        : edges_(edges), faces_(faces), slope_(slope), along_(edges, slope, least_step) {}
 
     /// asked: graded along edges.
     Array<double> sizes(std::span<const double> asked) {
@@ -166,8 +166,7 @@ class GradationOverFaces {
         }
         for (int round = 1; cross_faces(round); ++round) {
             const Array<double> before = sizes_;
-            sizes_ =
-                graded_along_edges(edges_, {before.data(), before.size()}, slope_, least_step_);
+            sizes_ = along_.graded({before.data(), before.size()});
             for (std::size_t e = 0; e < count; ++e)
                 if (!std::equal(&before.data()[edges_.first[e]],
                                 &before.data()[edges_.first[e + 1]],
@@ -316,7 +315,8 @@ class GradationOverFaces {
 
     const EdgeNetwork& edges_;
     const EdgesOfFaces& faces_;
-    double slope_, least_step_;
+    double slope_;
+    EdgeGradation along_;
     Array<double> sizes_;
     Array<std::int32_t> lowered_;      // of the edges: the last round that lowered one
     std::vector<SampleRange> ranges_;  // of the edges
@@ -329,7 +329,8 @@ class GradationOverFaces {
 
 Array<double> graded_over_faces(const EdgeNetwork& edges, const EdgesOfFaces& faces,
                                 std::span<const double> sizes, double slope, double least_step) {
-    Array<double> found = graded_along_edges(edges, sizes, slope, least_step);
+    const EdgeGradation along(edges, slope, least_step);
+    Array<double> found = along.graded(sizes);
     const ThinnedEdges thinned(edges, found);
     const EdgeNetwork few{{thinned.points.data(), thinned.points.size()},
                           {thinned.first.data(), thinned.first.size()},
@@ -339,7 +340,7 @@ Array<double> graded_over_faces(const EdgeNetwork& edges, const EdgesOfFaces& fa
                                      .sizes({thinned.sizes.data(), thinned.sizes.size()});
     if (std::equal(graded.begin(), graded.end(), thinned.sizes.begin())) return found;
     thinned.lower({graded.data(), graded.size()}, found);
-    return graded_along_edges(edges, {found.data(), found.size()}, slope, least_step);
+    return along.graded({found.data(), found.size()});
 }
 
 }  // namespace surfmesh

@@ -49,23 +49,47 @@ struct EdgeRuns {
 
 constexpr std::int64_t RUN = 8;
 
+constexpr std::size_t EDGES_AT_ONCE = 64;  // that a thread takes
+
 EdgeRuns runs_of_edges(const SampledEdges& sampled) {
-    EdgeRuns found;
-    found.boxes.reserve(sampled.points.size() / RUN + sampled.first.size());
-    for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
+    const std::size_t count = sampled.first.size() - 1;
+    EdgeRuns found{{}, Array<std::int64_t>(count), Array<Box3>(count)};
+    std::int64_t boxes = 0;
+    for (std::size_t e = 0; e < count; ++e) {
+        found.first_box.data()[e] = boxes;
+        boxes += (sampled.first[e + 1] - sampled.first[e] - 1 + RUN - 1) / RUN;
+    }
+    found.boxes.resize(static_cast<std::size_t>(boxes));
+    const auto put_boxes = [&](std::size_t e) {
         const std::int64_t first = sampled.first[e], end = sampled.first[e + 1];
-        found.first_box.push_back(static_cast<std::int64_t>(found.boxes.size()));
         Box3 whole = NO_BOX;
         if (end == first + 1) widen(whole, sampled.points[first], sampled.points[first]);
-        for (std::int64_t p = first; p < end - 1; p += RUN) {
+        Box3* box = found.boxes.data() + found.first_box.data()[e];
+        for (std::int64_t p = first; p < end - 1; p += RUN, ++box) {
             const std::int64_t last = std::min(p + RUN, end - 1);
-            const Box3 run = box_around(sampled.points.subspan(
-                static_cast<std::size_t>(p), static_cast<std::size_t>(last - p + 1)));
-            widen(whole, run.low, run.high);
-            found.boxes.push_back(run);
+            *box = box_around(sampled.points.subspan(static_cast<std::size_t>(p),
+                                                     static_cast<std::size_t>(last - p + 1)));
+            widen(whole, box->low, box->high);
         }
-        found.of_edges.push_back(whole);
-    }
+        found.of_edges.data()[e] = whole;
+    };
+    for_each_block(count, EDGES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) put_boxes(e);
+    });
+    return found;
+}
+
+/// Squares of the largest reach of each edge.
+Array<double> farthest_of_edges(const SampledEdges& sampled) {
+    Array<double> found(sampled.first.size() - 1);
+    for_each_block(found.size(), EDGES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            double largest = 0.0;
+            for (std::int64_t p = sampled.first[e]; p < sampled.first[e + 1]; ++p)
+                largest = std::max(largest, sampled.reach[p]);
+            found.data()[e] = largest * largest;
+        }
+    });
     return found;
 }
 
@@ -242,24 +266,15 @@ void lower_gaps_in_face(const SampledEdges& sampled, const EdgeRuns& runs, std::
 }  // namespace
 
 EdgeGaps edge_gaps(const SampledEdges& sampled) {
-    constexpr std::size_t BLOCK = 64;  // edges that a thread takes at a time
     const EdgeRuns runs = runs_of_edges(sampled);
     EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), runs.of_edges};
-    Array<double> farthest;  // squares of the largest reach of each edge
-    for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
-        const auto start = static_cast<std::size_t>(sampled.first[e]);
-        const auto count = static_cast<std::size_t>(sampled.first[e + 1]) - start;
-        double largest = 0.0;
-        for (const double reach : sampled.reach.subspan(start, count))
-            largest = std::max(largest, reach);
-        farthest.push_back(largest * largest);
-    }
+    const Array<double> farthest = farthest_of_edges(sampled);
     const FacesOfEdges uses = faces_of_edges(sampled);
     std::vector<NearEdges> near;
     near.reserve(sampled.first_of_face.size());
     for (std::size_t face = 0; face + 1 < sampled.first_of_face.size(); ++face)
         near.emplace_back(sampled, found.boxes, static_cast<std::int64_t>(face));
-    for_each_block(farthest.size(), BLOCK, [&](std::size_t begin, std::size_t end) {
+    for_each_block(farthest.size(), EDGES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
         Array<std::int64_t> rows;
         for (std::size_t a = begin; a < end; ++a)
             for (std::int64_t k = uses.first[a]; k < uses.first[a + 1]; ++k) {
@@ -273,13 +288,15 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
 }
 
 Array<double> sags(std::span<const Point3> points, std::span<const std::int64_t> first) {
-    Array<double> found;
-    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-        double largest = 0.0;
-        for (std::int64_t p = first[e] + 1; p < first[e + 1] - 1; ++p)
-            largest = std::max(largest, norm(points[p + 1] - 2.0 * points[p] + points[p - 1]));
-        found.push_back(largest / 8.0);
-    }
+    Array<double> found(first.size() - 1);
+    for_each_block(found.size(), EDGES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            double largest = 0.0;
+            for (std::int64_t p = first[e] + 1; p < first[e + 1] - 1; ++p)
+                largest = std::max(largest, norm(points[p + 1] - 2.0 * points[p] + points[p - 1]));
+            found.data()[e] = largest / 8.0;
+        }
+    });
     return found;
 }
 

@@ -103,17 +103,17 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     several = np.array([len(own) > 1 for own in samples.edges_of_face], bool)
     looked_at = np.flatnonzero(samples.is_wide & several & (samples.narrow_width > 0.0))
     widths, seen = np.unique(samples.narrow_width[looked_at], return_index=True)
-    owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
+    count = np.diff(first)
     found = []
     for width in widths[np.argsort(seen)].tolist():  # in the order of their first faces
         faces = looked_at[samples.narrow_width[looked_at] == width].tolist()
         edges = [samples.edges_of_face[face] for face in faces]
         start = offsets(np.array([len(own) for own in edges], np.int64))
         in_a_row = np.concatenate(edges)
-        reach = (width + sag + sag.max())[owner]
+        reach = np.repeat(width + sag + sag.max(), count)
         gap, boxes = edge_gaps(points, reach, first, ends, in_a_row, start)
         near = np.zeros(len(model.edges), bool)
-        near[owner[np.isfinite(gap)]] = True
+        near[np.searchsorted(first, np.flatnonzero(np.isfinite(gap)), side="right") - 1] = True
         low, high = boxes[:, :3], boxes[:, 3:]
         some = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
         for k in np.flatnonzero(some).tolist():

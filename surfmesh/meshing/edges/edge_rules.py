@@ -165,14 +165,16 @@ class EdgeRules:
         """The least of all demands (n,), and no more than the edge is long."""
         count = np.diff(courses.first)
         longest = np.maximum(self.arrays.length[courses.edges], NARROWEST * self.model.diagonal)
-        size, floor = np.repeat(longest, count), np.full(len(courses.fraction), np.inf)
+        size, floor = np.repeat(longest, count), np.array(np.inf)  # one for all, or (n,)
         for own in self.demands(courses, left_out):
+            finest = own.rules.clamp[0]
             if own.rows is None:
                 np.minimum(size, own.least(len(size)), out=size)
-                np.minimum(floor, own.rules.clamp[0], out=floor)
+                np.minimum(floor, finest, out=floor)
             else:
                 size[own.rows] = np.minimum(size[own.rows], own.least(len(own.rows)))
-                floor[own.rows] = np.minimum(floor[own.rows], own.rules.clamp[0])
+                floor = np.broadcast_to(floor, len(size)).copy() if floor.ndim == 0 else floor
+                floor[own.rows] = np.minimum(floor[own.rows], finest)
         return np.maximum(size, floor, out=size)
 
     def sags(self) -> tuple[np.ndarray, np.ndarray]:

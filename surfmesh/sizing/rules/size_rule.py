@@ -36,7 +36,7 @@ class SizeRule(PlaceRule):
     def sizes(self, points: np.ndarray) -> np.ndarray:
         if callable(self.size):
             return checked_sizes(self.size, points, "size")
-        return np.full(len(points), self.size)
+        return np.broadcast_to(self.size, len(points))  # read only
 
 
 def called(law: object) -> str:
