@@ -97,3 +97,12 @@ def test_functions_are_differenced_in_the_bent_parameter(name):
     assert report.clean and report.deviation_max <= 5e-3
     assert report.area == pytest.approx(area, rel=0.02)
     assert span[0] <= np.min(asked) and np.max(asked) <= span[1]
+
+
+def test_a_pole_where_the_surface_stands_still():
+    """Both derivatives are 0 at v = 0 and v = pi, where two cones end."""
+    x, y = "1.391*sin(v)**2*cos(u)", "1.391*sin(v)**2*sin(u)"
+    surface = sm.ParametricSurface(x, y, "0.566*cos(v)", u=(0, "2*pi"), v=(0, "pi"))
+    mesh = sm.mesh(surface, chord=0.079, growth=1.3)
+    assert np.isfinite(mesh.points).all()
+    assert mesh.report.clean and mesh.report.euler == 2

@@ -75,11 +75,13 @@ def copied(found: FaceMesh, job: FaceJob, other: FaceJob, width: float) -> FaceM
     slots, uv_of, turned = facing
     if not all(int(slot) in slots for slot in found.slots[found.slots >= 0]):
         return None
-    row_of = np.empty(len(found.uv_points), np.int64)  # the point of each image
-    row_of[found.uv_triangles] = found.triangles
-    uv = np.full(found.uv_points.shape, np.nan)
+    used, images = np.unique(found.uv_triangles, return_inverse=True)  # of removed vertices none
+    images, known = images.reshape(-1, 3), found.uv_points[used]
+    row_of = np.empty(len(used), np.int64)  # the point of each image
+    row_of[images] = found.triangles
+    uv = np.full(known.shape, np.nan)
     for k in np.flatnonzero(found.slots[row_of] >= 0).tolist():
-        place = uv_of.get(tuple(found.uv_points[k].tolist()))
+        place = uv_of.get(tuple(known[k].tolist()))
         if place is None:
             return None
         uv[k] = place
@@ -87,7 +89,7 @@ def copied(found: FaceMesh, job: FaceJob, other: FaceJob, width: float) -> FaceM
     surface = other.surface
     points = found.points.copy()
     if inner.any():
-        uv[inner] = _between(found.uv_triangles, uv, inner)
+        uv[inner] = _between(images, uv, inner)
         if not np.isfinite(uv).all():
             return None
         feet, away, places = closest_point(surface, found.points[row_of[inner]], uv[inner], STEPS)
@@ -98,7 +100,7 @@ def copied(found: FaceMesh, job: FaceJob, other: FaceJob, width: float) -> FaceM
     at = np.concatenate([piece.points for loop in other.loops for piece in loop])
     points[own >= 0] = at[own[own >= 0]]
     order = [0, 2, 1] if turned else [0, 1, 2]
-    triangles, images = found.triangles[:, order], found.uv_triangles[:, order]
+    triangles, images = found.triangles[:, order], images[:, order].astype(np.int32)
     cosine = face_cosines(surface, points[triangles], uv[images])
     if not (cosine > LEAST_COSINE).all():
         return None

@@ -1,6 +1,7 @@
 """Faces narrower than the chord: clean, their area kept, their neighbours not flooded."""
 
 import math
+from dataclasses import replace
 
 import cadquery as cq
 import numpy as np
@@ -9,8 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
+from surfmesh.meshing import model_mesh
 from surfmesh.meshing.edges.edge_nodes import cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
+from surfmesh.meshing.faces import opposite_faces
 from surfmesh.meshing.faces.strip_triangulation import rungs_between, zipped
 from surfmesh.sizing.options.model_sizing import model_sizing
 
@@ -135,6 +138,25 @@ def test_both_sides_of_a_thin_wall_are_meshed_alike(share):
     counts = np.bincount(mesh.face_ids)[walls]
     assert len(walls) == 2 and counts[0] == counts[1]
     judged(cq.Workplane().circle(5).circle(5 - width).extrude(3), euler=0)
+
+
+def test_the_other_side_of_a_wall_has_no_image_of_removed_vertices(monkeypatch):
+    seen = []
+
+    def spied(*given):
+        seen.append(given)
+        return opposite_faces.copied(*given)
+
+    monkeypatch.setattr(model_mesh, "copied", spied)
+    sm.mesh(sm.from_cadquery(cq.Workplane().box(10, 8, 0.003)), max_size=2.0, jobs=1)
+    found, *given = seen[0]
+    twin = opposite_faces.copied(found, *given)
+    uv = np.insert(found.uv_points, 4, [[1.0, 2.0]], axis=0)
+    shifted = found.uv_triangles + (found.uv_triangles >= 4)
+    other = opposite_faces.copied(replace(found, uv_points=uv, uv_triangles=shifted), *given)
+    assert twin is not None and (found.slots < 0).any()
+    for name in ("points", "triangles", "uv_points", "uv_triangles"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(twin, name))
 
 
 def test_a_narrow_face_keeps_its_ends_however_short():
