@@ -13,6 +13,8 @@ constexpr double SADDLE_RESERVE = 0.7;  // where the curvatures are opposite
 // In the worst direction: where the lattice follows the rims and not the principal directions.
 constexpr double LATTICE_RESERVE = 0.81;
 
+constexpr double QUADRIC_TURN = 1.02;  // radians
+
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -25,6 +27,19 @@ double balance(PrincipalCurvatures k, double ratio) {
     const double found = bound * bound * (small / most(first, second));
     if (std::isnan(found)) return 0.0;
     return least(most(found, -1.0), 1.0);
+}
+
+/// Edge length at which triangles are off by ``sagitta``, not below ``smallest``.
+///
+/// The chord of a circle, and the circumradius of a triangle on a sphere, of this sagitta s are
+/// h^2 = 8 s / k (1 - k s / 2) and R^2 = 2 s / k (1 - k s / 2). A quadric knows the first factor, and
+/// that does while the surface turns by less than QUADRIC_TURN over an edge.
+double size_at_sagitta(PrincipalCurvatures k, double sagitta, double smallest) {
+    const double size = std::sqrt(sagitta / deviation_factor(k));
+    const double large = most(std::abs(k.k1), std::abs(k.k2));
+    if (!(size * large > QUADRIC_TURN)) return most(size, smallest);
+    const double on_arc = size * std::sqrt(most(1.0 - 0.5 * large * sagitta, 0.0));
+    return most(most(on_arc, QUADRIC_TURN / large), smallest);
 }
 
 }  // namespace
@@ -43,11 +58,11 @@ double deviation_reserve(PrincipalCurvatures k) {
 }
 
 double chord_size(PrincipalCurvatures k, double chord) {
-    return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
+    return size_at_sagitta(k, deviation_reserve(k) * chord, 2.0 * chord);
 }
 
 double lattice_chord_size(PrincipalCurvatures k, double chord) {
-    return most(std::sqrt(LATTICE_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
+    return size_at_sagitta(k, LATTICE_RESERVE * chord, 2.0 * chord);
 }
 
 double quartic_factor(PrincipalCurvatures k) {
@@ -75,7 +90,7 @@ double angle_size(PrincipalCurvatures k, double angle) {
 }
 
 double normal_deviation_size(PrincipalCurvatures k, double angle) {
-    return SQRT3 * 0.75 * radians(angle) / most(std::abs(k.k1), std::abs(k.k2));
+    return SQRT3 * radians(angle) / most(std::abs(k.k1), std::abs(k.k2));
 }
 
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {

@@ -13,8 +13,11 @@ import numpy as np
 from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, LEAST_OF_CHORD
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.curvature_size import normal_deviation_size
+from surfmesh.sizing.rules.curvature_size import SEGMENT_RESERVE, normal_deviation_size
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
+
+RESERVE = 0.93
+"""Fraction of the angle that normals a unit triangle apart may differ by."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +37,10 @@ class DefaultAngleRule(CurvatureRule):
 
     @property
     def core(self) -> core_sizing.CurvatureRule:
-        return core_sizing.NormalDeviationRule(DEFAULT_ANGLE, LEAST_OF_CHORD * self.chord)
+        return core_sizing.NormalDeviationRule(RESERVE * DEFAULT_ANGLE, LEAST_OF_CHORD * self.chord)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
-        sizes = normal_deviation_size(k1, k2, DEFAULT_ANGLE)
-        return np.maximum(sizes, LEAST_OF_CHORD * self.chord)
+        return self._sizes(k1, k2, RESERVE)
 
     def principal_sizes(
         self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
@@ -47,4 +49,8 @@ class DefaultAngleRule(CurvatureRule):
         return self.sizes(k, k)
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        return self.sizes(curve.curvature, curve.curvature)
+        return self._sizes(curve.curvature, curve.curvature, SEGMENT_RESERVE)
+
+    def _sizes(self, k1: np.ndarray, k2: np.ndarray, reserve: float) -> np.ndarray:
+        sizes = normal_deviation_size(k1, k2, reserve * DEFAULT_ANGLE)
+        return np.maximum(sizes, LEAST_OF_CHORD * self.chord)

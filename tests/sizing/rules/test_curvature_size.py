@@ -58,6 +58,23 @@ def test_chord_size_keeps_a_reserve_for_larger_triangles():
     assert 0.5 < DEVIATION_RESERVE < ALIKE_RESERVE < 1.0
 
 
+@pytest.mark.parametrize("chord", [0.26, 0.3, 0.4])
+def test_where_the_surface_turns_much_chord_size_is_that_of_arcs(chord):
+    """Of a unit circle and of a unit sphere, exactly; quadrics gave up to a tenth more."""
+    one, none = np.ones(1), np.zeros(1)
+    (h,) = chord_size(one, none, chord)
+    assert 1 - np.sqrt(1 - h**2 / 4) == pytest.approx(DEVIATION_RESERVE * chord)
+    (h,) = chord_size(one, one, chord)
+    assert 1 - np.sqrt(1 - h**2 / 3) == pytest.approx(ALIKE_RESERVE * chord)
+
+
+def test_chord_size_does_not_fall_where_arcs_take_over():
+    chord = np.linspace(0.01, 0.5, 2000)
+    one = np.ones_like(chord)
+    for other in (-one, 0 * one, one):
+        assert (np.diff(chord_size(one, other, chord)) >= 0.0).all()
+
+
 def test_limits():
     assert np.isinf(chord_size(np.zeros(1), np.zeros(1), 0.1)[0])
     assert chord_size(np.array([1e9]), np.zeros(1), 0.1)[0] == 0.2  # never below 2 chord
