@@ -6,10 +6,12 @@ import pytest
 from surfmesh.sizing.rules.curvature_size import (
     ALIKE_RESERVE,
     DEVIATION_RESERVE,
+    STRAIGHT_RESERVE,
     angle_size,
     chord_size,
     deviation_factor,
     principal_angle_sizes,
+    principal_chord_sizes,
 )
 
 
@@ -66,6 +68,8 @@ def test_where_the_surface_turns_much_chord_size_is_that_of_arcs(chord):
     assert 1 - np.sqrt(1 - h**2 / 4) == pytest.approx(DEVIATION_RESERVE * chord)
     (h,) = chord_size(one, one, chord)
     assert 1 - np.sqrt(1 - h**2 / 3) == pytest.approx(ALIKE_RESERVE * chord)
+    (h,), _ = principal_chord_sizes(one, none, chord, 10.0)
+    assert 1 - np.sqrt(1 - h**2 / 4) == pytest.approx(STRAIGHT_RESERVE * chord)
 
 
 def test_chord_size_does_not_fall_where_arcs_take_over():
