@@ -13,7 +13,8 @@ namespace {
 
 constexpr double MANY_FAR = 0.05, MANY_FAR_STRETCHED = 0.02;  // of the triangles
 constexpr int CHORD_ROUNDS = 4, STRETCHED_CHORD_ROUNDS = 4, SPLIT_ROUNDS = 6;
-constexpr int MOVES = 4, INSERTION_ROUNDS = 10, SMOOTHED_ROUNDS = 6, MOVES_AFTER_INSERTION = 2;
+constexpr int MOVES = 4, STRETCHED_MOVES = 2, INSERTION_ROUNDS = 10, SMOOTHED_ROUNDS = 6,
+              MOVES_AFTER_INSERTION = 2;
 
 // Of ``chord``: what is let pass rather than go all the way round again. Between the samples of a
 // triangle the deviation may be a little larger than at them.
@@ -162,8 +163,8 @@ Triangles SurfaceApproach::insert_far(Triangles far) {
 /// Split edges of the triangles ``far`` where they are too far; returns those left.
 ///
 /// In stretched meshes smoothing and swaps turn triangles and bring others farther: the last few
-/// are only split. Where many are far in the first round a finer field needs fewer triangles than
-/// splits: then all are returned. Later it would be asked for again and again.
+/// that moves leave are only split. Where many are far in the first round a finer field needs fewer
+/// triangles than splits: then all are returned. Later it would be asked for again and again.
 Triangles SurfaceApproach::split_far(Triangles far, bool first) {
     const bool many = first && is_many(state_, far);
     const Triangles at_first = many ? far : Triangles{};
@@ -178,7 +179,10 @@ Triangles SurfaceApproach::split_far(Triangles far, bool first) {
 Triangles SurfaceApproach::in_rounds(bool first) {
     const bool stretched = state_.is_anisotropic();
     Triangles far = shrink_in_rounds(stretched ? STRETCHED_CHORD_ROUNDS : CHORD_ROUNDS, stretched);
-    if (stretched) return split_far(std::move(far), first);
+    if (stretched) {
+        if (!(first && is_many(state_, far))) far = move_far(std::move(far), STRETCHED_MOVES);
+        return split_far(std::move(far), first);
+    }
     far = move_far(std::move(far), MOVES);
     if (first && is_many(state_, far)) return far;
     state_.allow_splits();
