@@ -15,8 +15,6 @@ constexpr double BOWL_RESERVE = 0.74;  // of stretched sizes, where both curvatu
 // In the worst direction: where the lattice follows the rims and not the principal directions.
 constexpr double LATTICE_RESERVE = 0.81;
 
-constexpr double QUADRIC_TURN = 1.02;  // radians
-
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -39,23 +37,6 @@ double stretched_reserve(PrincipalCurvatures k, double b) {
     return reserve + (BOWL_RESERVE - STRETCHED_RESERVE) * (alike * alike);
 }
 
-/// The size that a quadric allows for ``sagitta``, where the surface bends as an arc of ``curvature``.
-///
-/// The chord of a circle, and the circumradius of a triangle on a sphere, of this sagitta s are
-/// h^2 = 8 s / k (1 - k s / 2) and R^2 = 2 s / k (1 - k s / 2). A quadric knows the first factor, and
-/// that does while the surface turns by less than QUADRIC_TURN over an edge.
-double on_arc(double size, double curvature, double sagitta) {
-    if (!(size * curvature > QUADRIC_TURN)) return size;
-    const double left = most(1.0 - 0.5 * curvature * sagitta, 0.0);
-    return most(size * std::sqrt(left), QUADRIC_TURN / curvature);
-}
-
-/// Edge length at which triangles are off by ``sagitta``, not below ``smallest``.
-double size_at_sagitta(PrincipalCurvatures k, double sagitta, double smallest) {
-    const double size = std::sqrt(sagitta / deviation_factor(k));
-    return most(on_arc(size, most(std::abs(k.k1), std::abs(k.k2)), sagitta), smallest);
-}
-
 }  // namespace
 
 double deviation_factor(PrincipalCurvatures k) {
@@ -72,11 +53,11 @@ double deviation_reserve(PrincipalCurvatures k) {
 }
 
 double chord_size(PrincipalCurvatures k, double chord) {
-    return size_at_sagitta(k, deviation_reserve(k) * chord, 2.0 * chord);
+    return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
 }
 
 double lattice_chord_size(PrincipalCurvatures k, double chord) {
-    return size_at_sagitta(k, LATTICE_RESERVE * chord, 2.0 * chord);
+    return most(std::sqrt(LATTICE_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
 }
 
 double quartic_factor(PrincipalCurvatures k) {
@@ -104,17 +85,14 @@ double angle_size(PrincipalCurvatures k, double angle) {
 }
 
 double normal_deviation_size(PrincipalCurvatures k, double angle) {
-    return SQRT3 * radians(angle) / most(std::abs(k.k1), std::abs(k.k2));
+    return SQRT3 * 0.75 * radians(angle) / most(std::abs(k.k1), std::abs(k.k2));
 }
 
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
     const double b = balance(k, ratio);
-    const double sagitta = stretched_reserve(k, b) * chord;
-    const double bound = sagitta / most(0.125, (1.0 + b) / 12.0);
-    const auto along = [&](double curvature) {
-        return most(on_arc(std::sqrt(bound / curvature), curvature, sagitta), 2.0 * chord);
-    };
-    return {along(std::abs(k.k1)), along(std::abs(k.k2))};
+    const double bound = stretched_reserve(k, b) * chord / most(0.125, (1.0 + b) / 12.0);
+    return {most(std::sqrt(bound / std::abs(k.k1)), 2.0 * chord),
+            most(std::sqrt(bound / std::abs(k.k2)), 2.0 * chord)};
 }
 
 PrincipalSizes principal_angle_sizes(PrincipalCurvatures k, double angle, double ratio) {

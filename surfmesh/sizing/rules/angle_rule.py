@@ -9,7 +9,6 @@ from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
-    SEGMENT_RESERVE,
     angle_size,
     normal_deviation_size,
     principal_angle_sizes,
@@ -46,5 +45,4 @@ class AngleRule(CurvatureRule):
         return np.maximum(sizes, self.finest)
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        k = curve.curvature
-        return normal_deviation_size(k, k, SEGMENT_RESERVE * self.angle)
+        return normal_deviation_size(curve.curvature, curve.curvature, self.angle)

@@ -19,9 +19,6 @@ ROUND_RESERVE, BENT_RESERVE = core.ROUND_RESERVE, core.BENT_RESERVE  # 0.78, 0.9
 """Share of ``angle`` that two unit triangles may be bent by: on a sphere; and for what depends on
 the direction."""
 
-SEGMENT_RESERVE = 0.75
-"""Of what ``normal_deviation_size`` allows between neighbours, for the segments of an edge."""
-
 STRETCHED_RESERVE, STRAIGHT_RESERVE = core.STRETCHED_RESERVE, core.STRAIGHT_RESERVE  # 0.7, 0.75
 """Of ``chord`` for anisotropic sizes: curved both ways, and one way only."""
 

@@ -6,12 +6,10 @@ import pytest
 from surfmesh.sizing.rules.curvature_size import (
     ALIKE_RESERVE,
     DEVIATION_RESERVE,
-    STRAIGHT_RESERVE,
     angle_size,
     chord_size,
     deviation_factor,
     principal_angle_sizes,
-    principal_chord_sizes,
 )
 
 
@@ -58,25 +56,6 @@ def test_chord_size_keeps_a_reserve_for_larger_triangles():
     reserve = DEVIATION_RESERVE + (both - DEVIATION_RESERVE) * alike
     np.testing.assert_allclose(deviation_factor(k1, k2) * h**2, reserve * 1e-4)
     assert 0.5 < DEVIATION_RESERVE < ALIKE_RESERVE < 1.0
-
-
-@pytest.mark.parametrize("chord", [0.26, 0.3, 0.4])
-def test_where_the_surface_turns_much_chord_size_is_that_of_arcs(chord):
-    """Of a unit circle and of a unit sphere, exactly; quadrics gave up to a tenth more."""
-    one, none = np.ones(1), np.zeros(1)
-    (h,) = chord_size(one, none, chord)
-    assert 1 - np.sqrt(1 - h**2 / 4) == pytest.approx(DEVIATION_RESERVE * chord)
-    (h,) = chord_size(one, one, chord)
-    assert 1 - np.sqrt(1 - h**2 / 3) == pytest.approx(ALIKE_RESERVE * chord)
-    (h,), _ = principal_chord_sizes(one, none, chord, 10.0)
-    assert 1 - np.sqrt(1 - h**2 / 4) == pytest.approx(STRAIGHT_RESERVE * chord)
-
-
-def test_chord_size_does_not_fall_where_arcs_take_over():
-    chord = np.linspace(0.01, 0.5, 2000)
-    one = np.ones_like(chord)
-    for other in (-one, 0 * one, one):
-        assert (np.diff(chord_size(one, other, chord)) >= 0.0).all()
 
 
 def test_limits():
