@@ -12,7 +12,7 @@ from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing import model_mesh, parametric_mesh
 from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
-from surfmesh.meshing.estimate.face_counts import Outlines, counts_of_faces
+from surfmesh.meshing.estimate.face_counts import Alike, counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.face_queue import FaceQueue
@@ -188,8 +188,7 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
             looked.extend(numbers)
             return model_estimate.counts_by_area([jobs[k] for k in numbers], fields)
 
-        outlines = Outlines.of(before.jobs)
-        found = counts_of_faces(before.jobs, areas, outlines, count).counts
+        found = counts_of_faces(before.jobs, areas, Alike.among(before.jobs, areas), count)
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
