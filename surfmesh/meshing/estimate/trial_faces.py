@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.meshing.estimate.estimation import field_triangles
 from surfmesh.meshing.estimate.face_counts import Alike
 from surfmesh.meshing.estimate.model_estimate import JobsOf
 from surfmesh.meshing.estimate.trial_patches import (
@@ -93,8 +94,11 @@ def ratios(
 def _ratio(job: FaceJob, count: float, plan: PatchPlan, field: FieldOf) -> float:
     """Triangles got for each of ``count``; 1 where that cannot be found out."""
     if count > SMALL:
-        per_unit = triangles_per_unit(*field(job), job.rings, plan)
-        return 1.0 if per_unit is None else float(np.clip(per_unit, *SPREAD))
+        surface, sizes = field(job)
+        per_unit = triangles_per_unit(surface, sizes, job.rings, plan)
+        if per_unit is None:
+            return 1.0
+        return float(np.clip(per_unit * field_triangles(sizes, job.rings) / count, *SPREAD))
     made = 0
 
     def one_round(limits: Mapping[int, SizeLimits]) -> tuple[int, dict[int, SizeLimits]]:

@@ -132,6 +132,16 @@ def test_areas_in_the_core_are_those_of_the_size_fields():
     assert areas == pytest.approx(wanted, rel=1e-12)
 
 
+@pytest.mark.parametrize("growth", [1.2, 1.5, 2.0])
+def test_where_sizes_change_steeply_there_are_more_triangles_than_fit_by_area(growth):
+    plate = cq.Workplane().box(60, 40, 8).faces(">Z").workplane().rarray(20, 20, 3, 2).hole(3)
+    model = sm.from_cadquery(plate)
+    sizing = sm.Sizing(chord=0.006, max_size=8, growth=growth)
+    mesh = sm.mesh(model, sizing)
+    found = model_mesh._Unmeshed(model, sizing, few=True).counts(model_estimate.FaceFields())
+    assert found.sum() == pytest.approx(len(mesh.triangles), rel=0.03)
+
+
 def counts(subject, size):
     make = partial(sm.mesh, subject, size)
     return trial_mesh.counts_within_budget(lambda budget: make(progress=budget))
