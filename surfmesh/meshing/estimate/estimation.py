@@ -31,7 +31,7 @@ MANY = 10**15
 
 COARSENESS, COARSENESS_STRETCHED = 3.0, 1.5
 """Of the size field of a surface of formulas: fewer cells where it bends much, and less so where
-sizes depend on the direction. The area changes by half a percent on two_peaks, .2 on wavy."""
+sizes depend on the direction. The count changes by .2 % on two_peaks, .8 on wavy."""
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
