@@ -309,7 +309,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     sizings = [state.sizing for state in before.faces]
-    small, foreseen, counts = before.bound <= (whole if stretched else FEW), False, None
+    small, foreseen = before.bound <= (whole if stretched else FEW), False
+    counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)
         foreseen = is_foreseen(sizings, counts, before.alike.outlines.fewest, before.bends)

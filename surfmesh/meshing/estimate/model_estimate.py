@@ -76,8 +76,8 @@ def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     makes = InwardFaces()
     inward = [None if strip else makes.face(job) for strip, job in zip(strips, jobs)]
     areas = np.full(len(jobs), np.nan)
-    grown = [number for number, face in enumerate(inward) if face is not None]
-    areas[grown] = metric_areas_inward([inward[number] for number in grown])
+    grown = {number: face for number, face in enumerate(inward) if face is not None}
+    areas[list(grown)] = metric_areas_inward(list(grown.values()))
     for number, (job, strip) in enumerate(zip(jobs, strips)):
         if strip is None and np.isnan(areas[number]):
             areas[number] = metric_area(fields(job)[1], job.rings)
