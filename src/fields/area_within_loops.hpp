@@ -15,7 +15,8 @@
 namespace surfmesh {
 
 /// What is linear between the nodes of a leaf: A, as meshes have it, or the size, which is as exact
-/// in larger leaves where it grows by the distance and H is a multiple of the identity.
+/// in larger leaves where it grows by the distance and H is a multiple of the identity. Of sizes,
+/// what meshes have more triangles of where these change is counted too.
 enum class Between { roots, sizes };
 
 /// Corners are finite, or the result is no number.

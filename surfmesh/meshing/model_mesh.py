@@ -23,7 +23,7 @@ from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
-from surfmesh.meshing.estimate.face_counts import FaceCounts, Outlines
+from surfmesh.meshing.estimate.face_counts import Alike
 from surfmesh.meshing.estimate.least_counts import least_of_model
 from surfmesh.meshing.estimate.model_estimate import (
     Bends,
@@ -309,11 +309,12 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     sizings = [state.sizing for state in before.faces]
-    small, foreseen, found = before.bound <= (whole if stretched else FEW), False, None
+    small, foreseen = before.bound <= (whole if stretched else FEW), False
+    counts: np.ndarray | None = None
     if not small:
-        found, outlines = before.counts(fields)
-        foreseen = is_foreseen(sizings, found.counts, outlines.fewest, before.bends)
-        small = found.counts.sum() <= (FEW if foreseen else whole)
+        counts = before.counts(fields)
+        foreseen = is_foreseen(sizings, counts, before.alike.outlines.fewest, before.bends)
+        small = counts.sum() <= (FEW if foreseen else whole)
     if small:
         samples = before.samples if stretched else None  # else there are too few
         made = counts_within_budget(lambda budget: mesh_model(
@@ -321,10 +322,9 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)
-    found = found or before.counts(fields)[0]
-    counts = found.counts
+    counts = before.counts(fields) if counts is None else counts
     if not foreseen or any(map(_follows_curvature, sizings)):
-        counts = counts * ratios(before.jobs, found, before.refined, fields)
+        counts = counts * ratios(before.jobs, counts, before.alike, before.refined, fields)
     return Estimate.of(counts, stretched, True, least)
 
 
@@ -398,18 +398,27 @@ class _Unmeshed:
             self._refined.update(zip(new, made))
         return [self._refined[number] for number in numbers]
 
-    def counts(self, fields: FaceFields) -> tuple[FaceCounts, Outlines]:
-        """Triangles of the faces, by a closer look at some of them."""
-        outlines = Outlines.of(self.jobs)
-        return model_counts(self.model, self.jobs, outlines, self.refined, fields), outlines
+    @cached_property
+    def alike(self) -> Alike:
+        """Which faces are alike."""
+        return Alike.among(self.jobs, model_arrays(self.model).area)
+
+    def counts(self, fields: FaceFields) -> np.ndarray:
+        """Triangles (f,) of the faces, by a closer look at some of them."""
+        return model_counts(self.model, self.jobs, self.alike, self.refined, fields)
 
     def _asked_around(self, numbers: list[int]) -> dict[int, SizeLimits]:
-        """What some faces and their neighbours ask of their edges, see ``edge_refinement``."""
+        """What some faces and their neighbours ask of their edges, see ``edge_refinement``; where
+        the first of alike ones asks for nothing none does."""
         arrays = model_arrays(self.model)
         edges = arrays.coedge_edge[rows_of(arrays.first_of_face, np.array(numbers))]
         near = np.unique(arrays.coedge_face[np.isin(arrays.coedge_edge, edges)]).tolist()
-        for number in near:
-            if number not in self._asked:
-                self._asked[number] = edge_refinement(self.jobs[number])
-        asked = {number: self._asked[number] for number in near}
-        return {number: more for number, more in asked.items() if more}
+        leader = self.alike.leader.tolist()
+        asking = [k for k in near if self._asked_by(leader[k]) is not None]
+        asked = {number: self._asked_by(number) for number in asking}
+        return {number: more for number, more in asked.items() if more is not None}
+
+    def _asked_by(self, number: int) -> SizeLimits | None:
+        if number not in self._asked:
+            self._asked[number] = edge_refinement(self.jobs[number])
+        return self._asked[number]

@@ -132,7 +132,7 @@ def _asked(domain: PlanarDomain, field: SizeField) -> float:
 
 def _combined(field: SizeField, loops: list[np.ndarray], nodes: int) -> float:
     fewest = fewest_triangles(nodes, len(loops))
-    return float(combined(np.float64(field_triangles(field, loops)), np.float64(fewest)))
+    return float(combined(np.array(field_triangles(field, loops)), np.array(fewest)))
 
 
 def _is_suspicious(domain: PlanarDomain, field: SizeField) -> bool:

@@ -29,9 +29,9 @@ being worked on; measured, peak of the process for meshes of 0.2 to 1.9 million 
 MANY = 10**15
 """Triangles: more are told in powers of ten."""
 
-COARSENESS, COARSENESS_STRETCHED = 2.0, 1.5
+COARSENESS, COARSENESS_STRETCHED = 3.0, 1.5
 """Of the size field of a surface of formulas: fewer cells where it bends much, and less so where
-sizes depend on the direction. The area changes by half a percent on two_peaks, .2 on wavy."""
+sizes depend on the direction. The count changes by .2 % on two_peaks, .8 on wavy."""
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""

@@ -66,25 +66,40 @@ class Outlines(NamedTuple):
         return self.segments + 2.0 * self.loops - 4.0
 
 
-class FaceCounts(NamedTuple):
-    """Triangles of many faces."""
+class Alike(NamedTuple):
+    """Faces in classes of alike ones."""
 
-    counts: np.ndarray
-    """(f,) on each."""
-    alike: np.ndarray
-    """(f,) the first face that each is like."""
+    outlines: Outlines
+    """Of all faces."""
+    first: np.ndarray
+    """(k,) the first face of each class."""
+    of: np.ndarray
+    """(f,) the class of each face."""
+
+    @classmethod
+    def among(cls, jobs: list[FaceJob], areas: np.ndarray) -> Self:
+        """areas: (f,) of the faces."""
+        outlines, known = Outlines.of(jobs), dict[Any, int]()
+        keys = _likenesses(jobs, _rounded(areas), outlines)
+        of = np.array([known.setdefault(key, len(known)) for key in keys], int)
+        return cls(outlines, np.unique(of, return_index=True)[1], of)
+
+    @property
+    def leader(self) -> np.ndarray:
+        """(f,) the first face that is like each."""
+        return self.first[self.of]
 
 
 def counts_of_faces(
-    jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines,
+    jobs: list[FaceJob], areas: np.ndarray, alike: Alike,
     count: Callable[[list[int]], np.ndarray],
-) -> FaceCounts:  # fmt: skip
-    """areas: (f,) of the faces; outlines: of all; count: triangles of some faces by their numbers,
-    of a closer look."""
-    first, class_of = _classes(jobs, areas, outlines)
+) -> np.ndarray:  # fmt: skip
+    """Triangles (f,) on each face. areas: (f,) of the faces; count: of some by their numbers, after
+    a closer look."""
+    outlines, first = alike.outlines, alike.first
     inside = TRIANGLES * areas[first] / outlines.size[first] ** 2
     rough = np.maximum(combined(inside, outlines.fewest[first]), 1.0)
-    members = np.bincount(class_of, minlength=len(first))
+    members = np.bincount(alike.of, minlength=len(first))
     plane = np.array([jobs[face].surface.kind == "plane" for face in first], bool)
     samples = [
         (of, *_sample(of, (rough * members)[of])) for of in map(np.flatnonzero, (plane, ~plane))
@@ -97,7 +112,7 @@ def counts_of_faces(
             others = np.setdiff1d(of, chosen)
             factor = np.average(counts[chosen] / rough[chosen], weights=times)
             counts[others] = factor * rough[others]
-    return FaceCounts(counts[class_of], first[class_of])
+    return counts[alike.of]
 
 
 def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,18 +122,6 @@ def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray
     sums = np.cumsum(weights)
     at = (np.arange(CLASSES) + 0.5) / CLASSES * sums[-1]
     return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
-
-
-def _classes(
-    jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines
-) -> tuple[np.ndarray, np.ndarray]:
-    """The first face of each class of alike ones (k,), and the class (f,) of each face."""
-    known: dict[Any, int] = {}
-    class_of = [
-        known.setdefault(key, len(known)) for key in _likenesses(jobs, _rounded(areas), outlines)
-    ]
-    _, first = np.unique(class_of, return_index=True)
-    return first, np.array(class_of, int)
 
 
 def _likenesses(jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines) -> Iterator[Any]:

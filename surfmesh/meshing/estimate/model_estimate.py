@@ -17,7 +17,7 @@ from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
-from surfmesh.meshing.estimate.face_counts import FaceCounts, Outlines, counts_of_faces
+from surfmesh.meshing.estimate.face_counts import Alike, Outlines, counts_of_faces
 from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
@@ -56,15 +56,15 @@ class FaceFields:
 
 
 def model_counts(
-    model: CadModel, jobs: list[FaceJob], outlines: Outlines, refined: JobsOf, fields: FaceFields
-) -> FaceCounts:
-    """Triangles on each face before anything is known of a mesh. Raises ``SizingError`` where a
-    size field cannot be made.
+    model: CadModel, jobs: list[FaceJob], alike: Alike, refined: JobsOf, fields: FaceFields
+) -> np.ndarray:
+    """Triangles on each face (f,) before anything is known of a mesh. Raises
+    ``SizingError`` where a size field cannot be made.
 
     jobs: of the first round; refined: what some are counted from.
     """
     return counts_of_faces(
-        jobs, model_arrays(model).area, outlines,
+        jobs, model_arrays(model).area, alike,
         lambda numbers: counts_by_area(refined(numbers), fields),
     )  # fmt: skip
 
@@ -76,8 +76,8 @@ def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     makes = InwardFaces()
     inward = [None if strip else makes.face(job) for strip, job in zip(strips, jobs)]
     areas = np.full(len(jobs), np.nan)
-    grown = [number for number, face in enumerate(inward) if face is not None]
-    areas[grown] = metric_areas_inward([inward[number] for number in grown])
+    grown = {number: face for number, face in enumerate(inward) if face is not None}
+    areas[list(grown)] = metric_areas_inward(list(grown.values()))
     for number, (job, strip) in enumerate(zip(jobs, strips)):
         if strip is None and np.isnan(areas[number]):
             areas[number] = metric_area(fields(job)[1], job.rings)
@@ -246,7 +246,8 @@ def require_model_within(
     names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
     every = jobs()
-    found = model_counts(
-        model, every, Outlines.of(every), lambda numbers: [every[k] for k in numbers], FaceFields()
+    alike = Alike.among(every, model_arrays(model).area)
+    counts = model_counts(
+        model, every, alike, lambda numbers: [every[k] for k in numbers], FaceFields()
     )
-    require_within(sizing.limit, Estimate.of(found.counts, model=True), names)
+    require_within(sizing.limit, Estimate.of(counts, model=True), names)

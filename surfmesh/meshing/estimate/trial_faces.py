@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
-from surfmesh.meshing.estimate.face_counts import FaceCounts
+from surfmesh.meshing.estimate.estimation import field_triangles
+from surfmesh.meshing.estimate.face_counts import Alike
 from surfmesh.meshing.estimate.model_estimate import JobsOf
 from surfmesh.meshing.estimate.trial_patches import (
     SMALL_PATCH,
@@ -62,10 +63,12 @@ SPREAD = (0.5, 2.5)
 """What lies beyond is no ratio but a face that fails."""
 
 
-def ratios(jobs: list[FaceJob], found: FaceCounts, refined: JobsOf, field: FieldOf) -> np.ndarray:
-    """Factors (f,) on the estimated counts of the faces. jobs: of the first round; refined: what
-    some are tried from; field: of a job."""
-    counts, factors = found.counts, np.ones(len(jobs))
+def ratios(
+    jobs: list[FaceJob], counts: np.ndarray, alike: Alike, refined: JobsOf, field: FieldOf
+) -> np.ndarray:
+    """Factors (f,) on the estimated ``counts`` (f,) of the faces. jobs: of the first round;
+    refined: what some are tried from; field: of a job."""
+    factors, leader = np.ones(len(jobs)), alike.leader
     # on a plane the optimiser has nothing to split where sizes are the same all ways
     stretched = np.array([job.sizing.is_anisotropic for job in jobs], bool)
     plane = np.array([job.surface.kind == "plane" for job in jobs], bool)
@@ -76,7 +79,7 @@ def ratios(jobs: list[FaceJob], found: FaceCounts, refined: JobsOf, field: Field
             continue
         for plan in _PLANS:
             at = (np.arange(plan.faces) + 0.5) / plan.faces * sums[-1]
-            tried = found.alike[of[np.searchsorted(sums, at)]]
+            tried = leader[of[np.searchsorted(sums, at)]]
             chosen, times = np.unique(tried, return_counts=True)
             if plan.cost(counts[chosen]) <= most:
                 each = [
@@ -91,8 +94,11 @@ def ratios(jobs: list[FaceJob], found: FaceCounts, refined: JobsOf, field: Field
 def _ratio(job: FaceJob, count: float, plan: PatchPlan, field: FieldOf) -> float:
     """Triangles got for each of ``count``; 1 where that cannot be found out."""
     if count > SMALL:
-        per_unit = triangles_per_unit(*field(job), job.rings, plan)
-        return 1.0 if per_unit is None else float(np.clip(per_unit, *SPREAD))
+        surface, sizes = field(job)
+        per_unit = triangles_per_unit(surface, sizes, job.rings, plan)
+        if per_unit is None:
+            return 1.0
+        return float(np.clip(per_unit * field_triangles(sizes, job.rings) / count, *SPREAD))
     made = 0
 
     def one_round(limits: Mapping[int, SizeLimits]) -> tuple[int, dict[int, SizeLimits]]:

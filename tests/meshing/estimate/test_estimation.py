@@ -12,7 +12,7 @@ from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing import model_mesh, parametric_mesh
 from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
-from surfmesh.meshing.estimate.face_counts import Outlines, counts_of_faces
+from surfmesh.meshing.estimate.face_counts import Alike, counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.face_queue import FaceQueue
@@ -132,6 +132,16 @@ def test_areas_in_the_core_are_those_of_the_size_fields():
     assert areas == pytest.approx(wanted, rel=1e-12)
 
 
+@pytest.mark.parametrize("growth", [1.2, 1.5, 2.0])
+def test_where_sizes_change_steeply_there_are_more_triangles_than_fit_by_area(growth):
+    plate = cq.Workplane().box(60, 40, 8).faces(">Z").workplane().rarray(20, 20, 3, 2).hole(3)
+    model = sm.from_cadquery(plate)
+    sizing = sm.Sizing(chord=0.006, max_size=8, growth=growth)
+    mesh = sm.mesh(model, sizing)
+    found = model_mesh._Unmeshed(model, sizing, few=True).counts(model_estimate.FaceFields())
+    assert found.sum() == pytest.approx(len(mesh.triangles), rel=0.03)
+
+
 def counts(subject, size):
     make = partial(sm.mesh, subject, size)
     return trial_mesh.counts_within_budget(lambda budget: make(progress=budget))
@@ -188,8 +198,7 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
             looked.extend(numbers)
             return model_estimate.counts_by_area([jobs[k] for k in numbers], fields)
 
-        outlines = Outlines.of(before.jobs)
-        found = counts_of_faces(before.jobs, areas, outlines, count).counts
+        found = counts_of_faces(before.jobs, areas, Alike.among(before.jobs, areas), count)
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
