@@ -10,8 +10,8 @@ namespace {
 
 constexpr double DISTANCE_ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 constexpr std::array<std::size_t, 3> CELLS = {4, 16, 64};
-constexpr double ENOUGH = 0.1;      // of the distance: what is between points
-constexpr double LITTLE = 0x1p-10;  // of the side: which is as good, for what is made of it
+constexpr double ENOUGH = 0.1;       // of the distance: what is between points
+constexpr double OF_SIDE = 0x1p-10;  // of the side: which is as good, for what is made of it
 
 }  // namespace
 
@@ -52,7 +52,7 @@ double SideDistances::computed(std::size_t h) {
         const double between = bounds.cell_whole / (n * n);
         const double all = most + between + rounded + DISTANCE_ROUNDING * size;
         if (all < found) found = all;
-        if (between <= std::max(ENOUGH * most, LITTLE * length)) break;
+        if (between <= std::max(ENOUGH * most, OF_SIDE * length)) break;
     }
     return found;
 }

@@ -15,32 +15,38 @@ using taylor::Variables;
 constexpr std::size_t LANES = 32;        // cells at a time: their series stay in the cache
 constexpr double WIDER = 1.0 + 0x1p-30;  // of a hundred operations for each of many instructions
 
-/// What the first operand of each instruction depends on: registers hold one number after the other.
-Array<Variables> variables_of(const Tape& tape) {
-    constexpr std::uint8_t NOTHING = 0, U = 1, V = 2;
-    Array<std::uint8_t> of_slot(2 + tape.constants().size() + tape.registers(), NOTHING);
-    of_slot[0] = U;
-    of_slot[1] = V;
-    Array<Variables> found;
+using OperandVariables = std::array<Variables, 3>;
+
+/// What the operands of each instruction depend on: registers hold one number after the other.
+Array<OperandVariables> variables_of(const Tape& tape) {
+    Array<Variables> of_slot(2 + tape.constants().size() + tape.registers(), Variables::NONE);
+    of_slot[0] = Variables::U;
+    of_slot[1] = Variables::V;
+    const auto both = [](Variables a, Variables b) {
+        if (a == Variables::NONE || a == b) return b;
+        return b == Variables::NONE ? a : Variables::BOTH;
+    };
+    Array<OperandVariables> found;
     for (const Instruction& step : tape.instructions()) {
-        const std::uint8_t first = of_slot[step.operands[0]];
-        found.push_back(first == U ? Variables::U : first == V ? Variables::V : Variables::BOTH);
-        std::uint8_t all = NOTHING;
+        const auto [a, b, c] = step.operands;
+        found.push_back({of_slot[a], of_slot[b], of_slot[c]});
+        Variables all = Variables::NONE;
         const int count = operation_kinds()[static_cast<std::size_t>(step.operation)].operands;
-        for (int k = 0; k < count; ++k) all |= of_slot[step.operands[static_cast<std::size_t>(k)]];
+        for (int k = 0; k < count; ++k)
+            all = both(all, of_slot[step.operands[static_cast<std::size_t>(k)]]);
         of_slot[step.target] = all;
     }
     return found;
 }
 
-void run(const Instruction& step, Variables first, const TapeSlots<Interval>& ranges,
+void run(const Instruction& step, const OperandVariables& of, const TapeSlots<Interval>& ranges,
          const TapeSlots<Coefficients>& series, std::size_t n) {
     std::array<Coefficients, LANES> found;
     const auto [a, b, c] = step.operands;
     for (std::size_t i = 0; i < n; ++i)
-        found[i] = taylor::of(step, {{{ranges[a][i], series[a][i], first},
-                                      {ranges[b][i], series[b][i]},
-                                      {ranges[c][i], series[c][i]}}});
+        found[i] = taylor::of(step, {{{ranges[a][i], series[a][i], of[0]},
+                                      {ranges[b][i], series[b][i], of[1]},
+                                      {ranges[c][i], series[c][i], of[2]}}});
     run_outward(step, ranges, n);  // which may write what was read
     std::copy_n(found.begin(), n, series[step.target]);
 }
@@ -76,7 +82,7 @@ void high_derivatives(const Tape& tape, std::span<const double> lo, std::span<co
     std::fill(out.begin(), out.end(), unknown());
     if (tape.inputs() != 2 || lo.empty()) return;
     const std::size_t count = lo.size() / 2, lanes = std::min(count, LANES);
-    const Array<Variables> first = variables_of(tape);
+    const Array<OperandVariables> of = variables_of(tape);
     const TapeSlots<Interval> ranges(tape, lanes);
     const TapeSlots<Coefficients> series(tape, lanes);
     for (std::size_t k = 0; k < tape.constants().size(); ++k) {
@@ -95,7 +101,7 @@ void high_derivatives(const Tape& tape, std::span<const double> lo, std::span<co
             ranges[static_cast<std::int32_t>(i % 2)][i / 2] = {lo[2 * start + i],
                                                                hi[2 * start + i]};
         for (std::size_t k = 0; k < tape.instructions().size(); ++k)
-            run(tape.instructions()[k], first[static_cast<std::ptrdiff_t>(k)], ranges, series, n);
+            run(tape.instructions()[k], of[static_cast<std::ptrdiff_t>(k)], ranges, series, n);
         for (std::size_t k = 0; k < outputs; ++k)
             for (std::size_t i = 0; i < n; ++i)
                 out[(start + i) * outputs + k] = derivatives_of(series[tape.outputs()[k]][i]);

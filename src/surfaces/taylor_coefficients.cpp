@@ -127,9 +127,36 @@ Coefficients sum(const Coefficients& a, double sign, const Coefficients& b) {
     return found;
 }
 
+/// The product of a series in one variable, that of A, and of one in the other: s^k t^l comes from s^k
+/// and t^l alone.
+template <Variables A>
+Coefficients product_across(const Coefficients& a, const Coefficients& b, const Sizes& size) {
+    Coefficients found{};
+    for (std::size_t k = 1; k < ORDER; ++k)
+        for (std::size_t l = 1; k + l <= ORDER; ++l) {
+            const std::size_t s = number(k, 0), t = number(0, l), into = number(k, l);
+            const std::size_t i = A == Variables::U ? s : t, j = A == Variables::U ? t : s;
+            found.mid[into] = a.mid[i] * b.mid[j];
+            found.rad[into] = std::abs(a.mid[i]) * size.rad[j] + a.rad[i] * size.both[j];
+        }
+    return found;
+}
+
+/// The product of the series without their values, as far as it is not 0.
+Coefficients product_of(const Operand& a, const Operand& b) {
+    using enum Variables;
+    if (a.variables == NONE || b.variables == NONE) return {};
+    const Coefficients &x = a.coefficients, &y = b.coefficients;
+    const Sizes size = sizes_of(y);
+    if (a.variables == U && b.variables == V) return product_across<U>(x, y, size);
+    if (a.variables == V && b.variables == U) return product_across<V>(x, y, size);
+    if (a.variables == U && b.variables == U) return product<U>(x, y, size);
+    if (a.variables == V && b.variables == V) return product<V>(x, y, size);
+    return product<BOTH>(x, y, size);
+}
+
 Coefficients multiply(const Operand& a, const Operand& b) {
-    Coefficients found =
-        product<Variables::BOTH>(a.coefficients, b.coefficients, sizes_of(b.coefficients));
+    Coefficients found = product_of(a, b);
     add(found, ball_of(a.range), b.coefficients);
     add(found, ball_of(b.range), a.coefficients);
     return not_zero(found);
@@ -388,8 +415,9 @@ Coefficients of(const Instruction& step, const std::array<Operand, 3>& operands)
         case Operation::MULTIPLY:
             return multiply(a, b);
         case Operation::DIVIDE: {
-            const Coefficients inverse = composed(of_power(b.range, -1.0), b.coefficients);
-            return multiply(a, {outward::reciprocal(b.range), inverse});
+            const Coefficients inverse =
+                composed(of_power(b.range, -1.0), b.coefficients, b.variables);
+            return multiply(a, {outward::reciprocal(b.range), inverse, b.variables});
         }
         case Operation::NEGATIVE:
             return negative(a.coefficients);

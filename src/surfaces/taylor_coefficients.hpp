@@ -30,7 +30,7 @@ struct Coefficients {
 };
 
 /// What a number depends on: other coefficients are 0, and need not be looked at.
-enum class Variables : std::uint8_t { U, V, BOTH };
+enum class Variables : std::uint8_t { NONE, U, V, BOTH };
 
 /// Of what one instruction reads: its range, and its coefficients, which lie elsewhere.
 struct Operand {

@@ -62,8 +62,18 @@ class AllMoves(NamedTuple):
     slope: Array  # (m,) how fast that changes at most
 
 
-class _Sides(NamedTuple):
-    """Sides of triangles at rims of faces, one face after the other; from the lower end on."""
+class _Rims(NamedTuple):
+    """Sides at rims of one face, from the lower end on."""
+
+    triangle: NDArray[np.intp]  # (k,) of all faces
+    side: NDArray[np.intp]  # (k,) of that
+    ends: NDArray[np.int64]  # (k, 2)
+    corners: Array  # (k, 2, 3)
+    uv: Array  # (k, 2, 2)
+
+
+class RimSides(NamedTuple):
+    """Sides of triangles at rims of several faces, one after the other; from the lower end on."""
 
     triangle: NDArray[np.intp]  # (k,) of all
     side: NDArray[np.intp]  # (k,) of that
@@ -73,33 +83,34 @@ class _Sides(NamedTuple):
     part: Array  # (k, 3) where that is, from end to end in (u, v)
     off: Array  # (k, 2) how far these are from the vertices
     normal: Array  # (k, 3) of a plane, else 0
-    along: Array  # (k,) how fast the piece leaves the side at most, along it
-    across: Array  # (k,) and across it
+    by_face: list[_Rims]
 
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 """Rows of sides that two faces share."""
 
 
-def joined(faces: list[FaceMoves], count: int) -> AllMoves:
+def joined(faces: list[FaceMoves], sides: RimSides, count: int) -> AllMoves:
     """Of a mesh with so many vertices."""
     triangles = np.concatenate([face.triangles for face in faces])
     away = np.concatenate([face.found.away for face in faces])
     slope = np.concatenate([face.found.slope for face in faces])
     if len(faces) > 1:
         corners = np.concatenate([face.face.corners for face in faces])
-        sides = _sides(faces)
         pairs = _pairs(sides)
         with np.errstate(divide="ignore", invalid="ignore"):
             more_away, more_slope = _at_corners(sides, triangles, corners, count)
-            away, slope = _spread(sides, pairs, corners, away + more_away, slope + more_slope)
+            rates = _rates(faces, sides)
+            away, slope = _spread(
+                sides, rates, pairs, corners, away + more_away, slope + more_slope
+            )
         known = np.isfinite(away) & np.isfinite(slope)
         away, slope = np.where(known, away, np.inf), np.where(known, slope, np.inf)
     return AllMoves(np.ascontiguousarray(triangles, np.int32), away, slope)
 
 
 def _at_corners(
-    sides: _Sides, triangles: NDArray[np.int64], corners: Array, count: int
+    sides: RimSides, triangles: NDArray[np.int64], corners: Array, count: int
 ) -> tuple[Array, Array]:
     """(m,) distances and slopes by which pieces are brought back to vertices of several faces."""
     off = np.zeros(count)
@@ -110,15 +121,16 @@ def _at_corners(
 
 
 def _spread(
-    sides: _Sides, pairs: _Pairs, corners: Array, away: Array, slope: Array
+    sides: RimSides, rates: Array, pairs: _Pairs, corners: Array, away: Array, slope: Array
 ) -> tuple[Array, Array]:
     """(m,) distances and slopes with what is spread over triangles from sides of two faces.
 
     f(s) runs along the side with 1 but for at most a: sigma with 1 but for a / (1 - a).
     """
-    room = np.maximum(1.0 - sides.along, 0.0)
-    slides = np.where(room > 0.0, sides.along / room, np.inf)
-    leaves = np.where(room > 0.0, sides.across / room, np.inf)
+    along, across = rates
+    room = np.maximum(1.0 - along, 0.0)
+    slides = np.where(room > 0.0, along / room, np.inf)
+    leaves = np.where(room > 0.0, across / room, np.inf)
     is_plane = (sides.normal != 0.0).any(axis=1)
     slid, followed, far = np.ones_like(slope), np.zeros_like(slope), np.zeros_like(away)
     heights, longest = _heights(corners), _lengths(corners).max(axis=1)
@@ -134,15 +146,12 @@ def _spread(
     return (away + far) * (1.0 + ROUNDING), all_slope * (1.0 + ROUNDING)
 
 
-def gaps_between(faces: list[FaceMoves]) -> Array:
+def gaps_between(faces: list[FaceMoves], sides: RimSides) -> Array:
     """(f,) how far pieces are at most from those of other faces, over places of their sides.
 
     Beside a plane, from that.
     """
     gaps = np.zeros(len(faces))
-    if len(faces) < 2:
-        return gaps
-    sides = _sides(faces, with_rates=False)
     one, other = _pairs(sides)
     is_plane = (sides.normal != 0.0).any(axis=1)
     apart = sides.piece[one] - sides.piece[other]
@@ -157,7 +166,7 @@ def gaps_between(faces: list[FaceMoves]) -> Array:
     return gaps
 
 
-def _pairs(sides: _Sides) -> _Pairs:
+def _pairs(sides: RimSides) -> _Pairs:
     """Rows of sides that two faces share."""
     key = sides.ends[:, 0] * (int(sides.ends.max(initial=0)) + 1) + sides.ends[:, 1]
     order = np.argsort(key, kind="stable")
@@ -166,30 +175,17 @@ def _pairs(sides: _Sides) -> _Pairs:
     return order[pairs], order[pairs + 1]
 
 
-class _Rims(NamedTuple):
-    """Sides at rims of one face, from the lower end on."""
-
-    triangle: NDArray[np.intp]  # (k,) of all faces
-    side: NDArray[np.intp]  # (k,) of that
-    ends: NDArray[np.int64]  # (k, 2)
-    corners: Array  # (k, 2, 3)
-    uv: Array  # (k, 2, 2)
-
-
-def _sides(faces: list[FaceMoves], with_rates: bool = True) -> _Sides:
-    """Of all faces. with_rates: else these are left 0."""
+def rim_sides(faces: list[FaceMoves]) -> RimSides:
+    """Of all faces; none of one that is alone."""
     starts = np.cumsum([0, *(len(face.face.vertices) for face in faces)])
-    rims = [_rims_of(face, start) for face, start in zip(faces, starts[:-1], strict=True)]
+    wanted = len(faces) > 1
+    rims = [_rims_of(face, start, wanted) for face, start in zip(faces, starts.tolist())]
     triangle, side, ends, corners, _ = map(np.concatenate, zip(*rims, strict=True))
     count = [len(own.side) for own in rims]
     length = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
     ends_of_piece = _pieces(faces, rims, np.tile([0.0, 1.0], (len(side), 1)))
     off = np.linalg.norm(ends_of_piece - corners, axis=2)
     normal = np.repeat([_normal_of_plane(face.surface) for face in faces], count, axis=0)
-    along, across = np.zeros((2, len(side)))
-    if with_rates:
-        rates = [_rates(face, own, start) for face, own, start in zip(faces, rims, starts)]
-        along, across = np.concatenate(rates, axis=1) + off.sum(axis=1) / length
     piece, part = np.zeros((len(side), len(PLACES), 3)), np.tile(PLACES, (len(side), 1))
     # that of a plane is the side itself, once it is brought to the vertices
     bent = [k for k, face in enumerate(faces) if not isinstance(face.surface, Plane)]
@@ -198,12 +194,12 @@ def _sides(faces: list[FaceMoves], with_rates: bool = True) -> _Sides:
         piece[rows], part[rows] = _over_places(
             [faces[k] for k in bent], [rims[k] for k in bent], corners[rows], ends_of_piece[rows]
         )
-    return _Sides(triangle, side, ends, length, piece, part, off, normal, along, across)
+    return RimSides(triangle, side, ends, length, piece, part, off, normal, rims)
 
 
-def _rims_of(face: FaceMoves, start: int) -> _Rims:
-    """Of one face, whose triangles are numbered from ``start`` on."""
-    half_edges = np.flatnonzero(face.face.twins < 0)
+def _rims_of(face: FaceMoves, start: int, wanted: bool) -> _Rims:
+    """Of one face, whose triangles are numbered from ``start`` on; none if they are not wanted."""
+    half_edges = np.flatnonzero((face.face.twins < 0) & wanted)
     triangle, side = half_edges // 3, half_edges % 3
     at = np.stack([side, (side + 1) % 3], axis=1)
     ends = face.triangles[triangle[:, None], at]
@@ -218,8 +214,18 @@ def _normal_of_plane(surface: Surface) -> Array:
     return np.asarray(surface.z) if isinstance(surface, Plane) else np.zeros(3)
 
 
-def _rates(face: FaceMoves, rims: _Rims, start: int) -> Array:
-    """(2, k) how fast pieces leave their sides, along these and across."""
+def _rates(faces: list[FaceMoves], sides: RimSides) -> Array:
+    """(2, k) how fast pieces leave their sides at most, along these and across."""
+    starts = np.cumsum([0, *(len(face.face.vertices) for face in faces)])
+    rates = [
+        _rates_of(face, rims, start)
+        for face, rims, start in zip(faces, sides.by_face, starts[:-1], strict=True)
+    ]
+    return np.concatenate(rates, axis=1) + sides.off.sum(axis=1) / sides.length
+
+
+def _rates_of(face: FaceMoves, rims: _Rims, start: int) -> Array:
+    """Of one face, whose ends are where they are."""
     if isinstance(face.surface, Plane):
         return np.zeros((2, len(rims.side)))
     if face.found.bends is None:
@@ -293,13 +299,12 @@ class SharedMiddles(NamedTuple):
 
 
 def shared_middles(
-    faces: list[FaceMoves], points: Array, is_bent: NDArray[np.bool_]
+    faces: list[FaceMoves], sides: RimSides, points: Array, is_bent: NDArray[np.bool_]
 ) -> tuple[Array, Array, list[SharedMiddles]]:
     """(n, 3) amid sides that end in a vertex that is bent, (n, 3) on both faces; and of each face.
 
     Sides between planes need none.
     """
-    sides = _sides(faces, with_rates=False)
     one, other = _pairs(sides)
     is_plane = (sides.normal != 0.0).any(axis=1)
     wanted = is_bent[sides.ends[one]].any(axis=1) & ~(is_plane[one] & is_plane[other])

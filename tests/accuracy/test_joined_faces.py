@@ -5,7 +5,13 @@ import pytest
 
 import surfmesh as sm
 from surfmesh._core.proof import side_rates
-from surfmesh.accuracy.joined_faces import _pairs, _sides, gaps_between, joined, shared_middles
+from surfmesh.accuracy.joined_faces import (
+    _pairs,
+    gaps_between,
+    joined,
+    rim_sides,
+    shared_middles,
+)
 from surfmesh.accuracy.projected_pieces import nearest, slide_along
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Sphere, Torus
 from surfmesh.geometry.core_surface import as_core_surface
@@ -95,9 +101,9 @@ PARTS = {
 def test_curves_over_sides_of_two_faces_move_less_than_is_said(name):
     """From places of a side to the next, by no more than the slope of both triangles."""
     mesh, faces = moved_faces_of(PARTS[name], 500)
-    moves = joined(faces, len(mesh.points))
-    assert gaps_between(faces).max() < 1e-12
-    sides = _sides(faces)
+    sides = rim_sides(faces)
+    moves = joined(faces, sides, len(mesh.points))
+    assert gaps_between(faces, sides).max() < 1e-12
     one, other = _pairs(sides)
     assert len(one) > 50
     for own in (one, other):
@@ -114,7 +120,8 @@ def test_curves_over_sides_of_two_faces_move_less_than_is_said(name):
 
 def test_triangles_of_a_plane_follow_the_hole_in_it():
     mesh, faces = moved_faces_of(PARTS["hole"], 500)
-    moves, sides = joined(faces, len(mesh.points)), _sides(faces)
+    sides = rim_sides(faces)
+    moves = joined(faces, sides, len(mesh.points))
     one, other = _pairs(sides)
     is_plane = (sides.normal != 0.0).any(axis=1)
     for own, beside in ((one, other), (other, one)):
@@ -126,7 +133,8 @@ def test_triangles_of_a_plane_follow_the_hole_in_it():
 
 def test_sides_of_two_faces_are_cut_at_one_place():
     mesh, faces = moved_faces_of(PARTS["rounded"], 500)
-    flat, moved, shared = shared_middles(faces, mesh.points, np.ones(len(mesh.points), bool))
+    is_bent = np.ones(len(mesh.points), bool)
+    flat, moved, shared = shared_middles(faces, rim_sides(faces), mesh.points, is_bent)
     for face, own in zip(faces, shared, strict=True):
         at = own.numbers - len(mesh.points)
         points = face.surface.evaluate(own.uv, 0)[0]

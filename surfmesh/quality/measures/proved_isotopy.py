@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 
 from surfmesh._core.proof import bent_stars, prove_isotopy
 from surfmesh.accuracy.finer_pieces import FinerFace, cut_around, linear_moves, unmoved
-from surfmesh.accuracy.joined_faces import AllMoves, FaceMoves, gaps_between, joined, shared_middles
+from surfmesh.accuracy.joined_faces import (
+    AllMoves,
+    FaceMoves,
+    RimSides,
+    gaps_between,
+    joined,
+    rim_sides,
+    shared_middles,
+)
 from surfmesh.accuracy.polar_pieces import joined_at_poles
 from surfmesh.accuracy.proof import FaceProof, proved_distances
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -91,16 +99,17 @@ class _Way(NamedTuple):
 
     points: NDArray[np.float64]
     faces: list[FaceMoves]
+    sides: RimSides
     moves: AllMoves
 
 
 def _moved(mesh: SurfaceMesh, faces: list[FaceMoves]) -> Answer:
     """Can the mesh be moved to its surface?"""
     points = np.ascontiguousarray(mesh.points)
-    faces, gap = _with_one_curve(faces, _most(points))
+    faces, sides, gap = _with_one_curve(faces, _most(points))
     if gap > _most(points):
         return Answer(None, f"pieces of two faces are {gap:.2g} apart along an edge of both")
-    way = _Way(points, faces, joined(faces, len(points)))
+    way = _Way(points, faces, sides, joined(faces, sides, len(points)))
     fault = _fault(way)
     if fault[0] == BENT:
         still = np.zeros(len(way.moves.slope))
@@ -130,23 +139,25 @@ def _most(points: NDArray[np.float64]) -> float:
     return GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
-def _with_one_curve(faces: list[FaceMoves], most: float) -> tuple[list[FaceMoves], float]:
+def _with_one_curve(faces: list[FaceMoves], most: float) -> tuple[list[FaceMoves], RimSides, float]:
     """With pieces over (u, v) where those by nearest points do not end in other faces.
 
-    And the largest gap that is left; where it is too large, nothing is proved of these.
+    Their sides, and the largest gap left; where it is too large, nothing is proved of these.
     """
-    is_far = gaps_between(faces) > most
+    sides = rim_sides(faces)
+    is_far = gaps_between(faces, sides) > most
     if not is_far.any():
-        return faces, 0.0
+        return faces, sides, 0.0
     tried = [
         face._replace(found=face.found._replace(bends=np.empty((0, 3, 2)))) if far else face
         for face, far in zip(faces, is_far, strict=True)
     ]
-    gap = float(gaps_between(tried).max())
+    gap = float(gaps_between(tried, rim_sides(tried)).max())
     if gap > most:
-        return faces, gap
+        return faces, sides, gap
     faces = [_over_uv(face) if far else face for face, far in zip(faces, is_far, strict=True)]
-    return faces, float(gaps_between(faces).max())
+    sides = rim_sides(faces)
+    return faces, sides, float(gaps_between(faces, sides).max())
 
 
 def _bent(way: _Way) -> NDArray[np.bool_]:
@@ -161,7 +172,7 @@ def _finer(way: _Way) -> _Way | None:
     is_bent = _bent(way)
     if is_bent.sum() > max(FEW, MANY * len(is_bent)):
         return None
-    amid, on_both, shared = shared_middles(way.faces, way.points, is_bent)
+    amid, on_both, shared = shared_middles(way.faces, way.sides, way.points, is_bent)
     flat, moved, cuts, faces = [way.points, amid], [way.points, on_both], [], []
     known = np.concatenate(moved)
     for face, own in zip(way.faces, shared, strict=True):
@@ -182,8 +193,10 @@ def _finer(way: _Way) -> _Way | None:
     is_same = len(end) == len(way.points)
     if is_same or not _is_moved(start, end, np.ascontiguousarray(triangles, np.int32)):
         return None
-    finer = _Way(end, faces, joined(faces, len(end)))
-    return finer if gaps_between(faces).max() <= _most(end) else None
+    sides = rim_sides(faces)
+    if gaps_between(faces, sides).max() > _most(end):
+        return None
+    return _Way(end, faces, sides, joined(faces, sides, len(end)))
 
 
 def _is_moved(
@@ -220,7 +233,8 @@ def _looked_at_closely(way: _Way) -> _Way:
         if is_bent[face.numbers].any():
             found = _proved(face, face.found.bends is None)
         faces.append(found or face)
-    return _Way(way.points, faces, joined(faces, len(way.points)))
+    sides = rim_sides(faces)
+    return _Way(way.points, faces, sides, joined(faces, sides, len(way.points)))
 
 
 def _proved(moves: FaceMoves, by_normals: bool) -> FaceMoves | None:
