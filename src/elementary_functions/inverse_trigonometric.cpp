@@ -24,7 +24,8 @@ std::uint64_t mask_of_larger(double a, double b) { return mask_of(bits_of(b) - b
 ///     |   \  |  /  0
 ///     +----------- x
 ///
-double angle_of(double y, double x) {
+/// Inline, so that compilers take several numbers at a time in the loops below.
+inline double angle_of(double y, double x) {
     const double size = std::abs(x);
     const std::uint64_t steep = mask_of_larger(y, size), left = mask_of(bits_of(x));
     const double a = choose(steep, size, y), b = choose(steep, y, size);
@@ -57,9 +58,11 @@ std::uint64_t is_extreme(double x) {
     return (bits - SMALLEST) | (LARGEST - bits);
 }
 
-double atan_ordinary(double x) { return std::copysign(angle_of(std::abs(x), 1.0), x); }
+inline double atan_ordinary(double x) { return std::copysign(angle_of(std::abs(x), 1.0), x); }
 
-double atan2_ordinary(double y, double x) { return std::copysign(angle_of(std::abs(y), x), y); }
+inline double atan2_ordinary(double y, double x) {
+    return std::copysign(angle_of(std::abs(y), x), y);
+}
 
 /// atan2 at zeros, infinities and extreme numbers; |y| in place of y.
 double upper_angle(double y, double x) {

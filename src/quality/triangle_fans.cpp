@@ -1,6 +1,7 @@
 #include "quality/triangle_fans.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -38,11 +39,47 @@ Vertex start_of_half_edge(std::span<const TriangleCorners> triangles, std::int32
 
 /// The half-edge after e in its triangle.
 std::int32_t following(std::int32_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
+/// The one before it.
+std::int32_t preceding(std::int32_t e) { return e % 3 == 0 ? e + 2 : e - 1; }
+
+/// How many corners there are at a vertex where e starts, from neighbour to neighbour.
+///
+/// twins: of each half-edge the one that runs along the same edge the other way, or NIL.
+std::int32_t corners_around(std::int32_t e, const Array<std::int32_t>& twins) {
+    std::int32_t count = 1;
+    std::int32_t corner = twins[preceding(e)];
+    for (; corner != NIL && corner != e; corner = twins[preceding(corner)]) ++count;
+    if (corner == e) return count;
+    for (std::int32_t twin = twins[e]; twin != NIL; twin = twins[following(twin)]) ++count;
+    return count;
+}
+
+/// One fan at each vertex that has triangles, if neighbours lead from each corner to all others
+/// there: so it is at most vertices of most meshes. Else nothing.
+std::optional<Array<std::int64_t>> single_fans(std::span<const TriangleCorners> triangles,
+                                               std::size_t vertices,
+                                               std::span<const EdgeTable::Sides> sides) {
+    const Array<std::int32_t> twins = opposite_half_edges(triangles, sides);
+    Array<std::int32_t> corners(vertices, 0), one(vertices, NIL);
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(3 * triangles.size()); ++e) {
+        const Vertex v = start_of_half_edge(triangles, e);
+        ++corners[v];
+        one[v] = e;
+    }
+    Array<std::int64_t> fans(vertices, 0);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        if (one[v] == NIL) continue;
+        if (corners_around(one[v], twins) != corners[v]) return std::nullopt;
+        fans[v] = 1;
+    }
+    return fans;
+}
 
 }  // namespace
 
 Array<std::int64_t> triangle_fans(std::span<const TriangleCorners> triangles, std::size_t vertices,
                                   std::span<const EdgeTable::Sides> sides) {
+    if (auto single = single_fans(triangles, vertices, sides)) return *single;
     JoinedCorners corners(3 * triangles.size());
     for (const auto& [e, f] : sides) {
         if (f == NIL) continue;

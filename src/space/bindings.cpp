@@ -27,8 +27,6 @@ struct Row<TriangleCorners> : RowOf<std::int32_t, 3> {};
 template <>
 struct Row<ThingPair> : RowOf<std::int32_t, 2> {};
 template <>
-struct Row<TriangleShape> : RowOf<double, 5> {};
-template <>
 struct Row<TangentPlaneOffset> : RowOf<double, 7> {};
 template <>
 struct Row<EdgeTable::Ends> : RowOf<std::int32_t, 2> {};
@@ -129,6 +127,24 @@ void bind_edge_table(nb::module_& m) {
         "Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two "
         "half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used "
         "(ne,). Half-edge 3 t + k runs from corner k of triangle t.");
+    m.def(
+        "edge_rows",
+        [](const HalfEdges& edges, const HalfEdges& pairs) {
+            const auto ends = rows<EdgeTable::Ends>(edges);
+            if (!std::is_sorted(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
+                    return std::tie(a.lower, a.higher) < std::tie(b.lower, b.higher);
+                }))
+                throw nb::value_error("edges are not in order");
+            Array<std::int64_t> found;
+            {
+                const nb::gil_scoped_release released;
+                found = edge_rows(ends, rows<EdgeTable::Ends>(pairs));
+            }
+            return view(found);
+        },
+        nb::arg("edges"), nb::arg("pairs"),
+        "Rows (k,) of edges (ne, 2), as of ``edge_table``, of pairs (k, 2) of vertices in either "
+        "order; -1 where there is none.");
 }
 
 void require_offsets(const Indices& offsets, std::size_t last, const char* what) {
@@ -202,16 +218,17 @@ void bind_shapes(nb::module_& m) {
         "triangle_shapes",
         [](const Points3& points, const Triangles& triangles) {
             require_corners(triangles, points.shape(0));
-            Array<TriangleShape> shapes;
+            TriangleShapes shapes;
             {
                 const nb::gil_scoped_release released;
                 shapes = triangle_shapes(rows<Point3>(points), rows<TriangleCorners>(triangles));
             }
-            return view(shapes);
+            return std::tuple(view(shapes.area), view(shapes.alpha), view(shapes.radius_ratio),
+                              view(shapes.least_angle), view(shapes.largest_angle));
         },
         nb::arg("points"), nb::arg("triangles"),
-        "Shape (m, 5) of every triangle, measured in 3D: area; alpha = 4 sqrt(3) area / sum of "
-        "squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in radians.\n\n"
+        "Shape of every triangle, measured in 3D, each (m,): area; alpha = 4 sqrt(3) area / sum of "
+        "squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in degrees.\n\n"
         "1 is best for alpha and the radius ratio, 0 is a triangle without area.");
     m.def(
         "interpolate",

@@ -17,6 +17,19 @@ bool is_before(const EdgeUse& a, const EdgeUse& b) {
     return std::tie(a.lower, a.higher, a.half_edge) < std::tie(b.lower, b.higher, b.half_edge);
 }
 
+/// Those of one lower vertex, which come in the order of half-edges: mostly three to six.
+void sort_by_higher(std::span<EdgeUse> uses) {
+    constexpr std::size_t FEW = 32;
+    if (uses.size() > FEW) return std::sort(uses.begin(), uses.end(), is_before);
+    for (std::size_t k = 1; k < uses.size(); ++k) {
+        const EdgeUse use = uses[k];
+        std::size_t place = k;
+        for (; place > 0 && use.higher < uses[place - 1].higher; --place)
+            uses[place] = uses[place - 1];
+        uses[place] = use;
+    }
+}
+
 /// Call work(use) for all half-edges, in their order.
 template <class Work>
 void for_each_use(std::span<const TriangleCorners> triangles, const Work& work) {
@@ -42,8 +55,11 @@ Array<EdgeUse> sorted_uses(std::span<const TriangleCorners> triangles) {
     Array<std::size_t> next = first;
     Array<EdgeUse> uses(count);
     for_each_use(triangles, [&](const EdgeUse& use) { uses[next[place(use.lower)]++] = use; });
-    for (std::size_t v = 0; v + 1 < first.size(); ++v)
-        std::sort(uses.begin() + first[v], uses.begin() + first[v + 1], is_before);
+    if (is_sparse)
+        std::sort(uses.begin(), uses.end(), is_before);
+    else
+        for (std::size_t v = 0; v + 1 < first.size(); ++v)
+            sort_by_higher({uses.begin() + first[v], uses.begin() + first[v + 1]});
     return uses;
 }
 
@@ -74,6 +90,34 @@ EdgeTable edge_table(std::span<const TriangleCorners> triangles) {
         k = end;
     }
     return table;
+}
+
+Array<std::int64_t> edge_rows(std::span<const EdgeTable::Ends> edges,
+                              std::span<const EdgeTable::Ends> pairs) {
+    Array<std::int64_t> rows(pairs.size(), NIL);
+    if (edges.empty()) return rows;
+    // edges by their lower vertex; where the numbers are sparse, all of them together
+    const std::int64_t low = edges.front().lower, high = edges.back().lower;
+    const auto count = static_cast<std::int64_t>(edges.size() + pairs.size());
+    const bool is_sparse = high - low > SPARSE * count;
+    const auto place = [&](Vertex v) { return is_sparse ? 0 : v - low; };
+    Array<std::size_t> first(is_sparse ? 2 : high - low + 2, 0);
+    for (const auto& edge : edges) ++first[place(edge.lower) + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    const auto is_less = [](const EdgeTable::Ends& a, const EdgeTable::Ends& b) {
+        return std::tie(a.lower, a.higher) < std::tie(b.lower, b.higher);
+    };
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto [a, b] = pairs[k];
+        const EdgeTable::Ends pair{std::min(a, b), std::max(a, b)};
+        if (pair.lower < low || pair.lower > high) continue;
+        const std::size_t begin = first[place(pair.lower)], end = first[place(pair.lower) + 1];
+        const auto near = edges.subspan(begin, end - begin);
+        const auto there = std::lower_bound(near.begin(), near.end(), pair, is_less);
+        if (there != near.end() && !is_less(pair, *there))
+            rows[k] = static_cast<std::int64_t>(begin) + (there - near.begin());
+    }
+    return rows;
 }
 
 Array<std::int32_t> opposite_half_edges(std::span<const TriangleCorners> triangles,

@@ -27,6 +27,10 @@ struct EdgeTable {
 
 EdgeTable edge_table(std::span<const TriangleCorners> triangles);
 
+/// The row of each pair of vertices, in either order, among the edges of a table; NIL: none.
+Array<std::int64_t> edge_rows(std::span<const EdgeTable::Ends> edges,
+                              std::span<const EdgeTable::Ends> pairs);
+
 /// Of each half-edge the one beside it that runs the other way, or NIL.
 ///
 /// sides: of the table of these triangles; those that do not run along one edge are left out.

@@ -10,17 +10,17 @@
 
 namespace surfmesh {
 
-/// 1 is best for alpha and the radius ratio, 0 is a triangle without area.
-struct TriangleShape {
-    double area;
-    double alpha;         // 4 sqrt(3) area / sum of squared edges
-    double radius_ratio;  // 2 r_in / r_circum
-    double least_angle, largest_angle;
+/// One value a triangle. 1 is best for alpha and the radius ratio, 0 is a triangle without area.
+struct TriangleShapes {
+    Array<double> area;
+    Array<double> alpha;                       // 4 sqrt(3) area / sum of squared edges
+    Array<double> radius_ratio;                // 2 r_in / r_circum
+    Array<double> least_angle, largest_angle;  // degrees
 };
 
 /// Shape of every triangle, measured in space.
-Array<TriangleShape> triangle_shapes(std::span<const Point3> points,
-                                     std::span<const TriangleCorners> triangles);
+TriangleShapes triangle_shapes(std::span<const Point3> points,
+                               std::span<const TriangleCorners> triangles);
 
 /// Barycentric weights of a place in a triangle.
 struct Weights {

@@ -37,6 +37,11 @@ def edge_table(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), 
     Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used (ne,). Half-edge 3 t + k runs from corner k of triangle t.
     """
 
+def edge_rows(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], pairs: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    Rows (k,) of edges (ne, 2), as of ``edge_table``, of pairs (k, 2) of vertices in either order; -1 where there is none.
+    """
+
 def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:
     """
     Distance (n,) of each sample from the edges that share a face with its own but no vertex, and boxes (e, 6) around the edges, rows (low, high).
@@ -54,9 +59,9 @@ def triangle_planes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 
     Unit normals (k, 3), twice the areas (k,) and the longest sides (k,) of some triangles, rows (k,) of (m, 3). A triangle without area has the normal zero.
     """
 
-def triangle_shapes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 5))]:
+def triangle_shapes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
-    Shape (m, 5) of every triangle, measured in 3D: area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in radians.
+    Shape of every triangle, measured in 3D, each (m,): area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in degrees.
 
     1 is best for alpha and the radius ratio, 0 is a triangle without area.
     """

@@ -29,15 +29,9 @@ def six_nodes(
 
 def edge_rows(table: Connectivity, pairs: NDArray) -> NDArray[np.int64]:
     """Rows of ``table.edges`` of the pairs (k, 2) of vertex numbers; -1 where there is none."""
-    width = np.int64(max(int(table.edges.max(initial=0)), int(pairs.max(initial=0))) + 1)
-    low, high = table.edges.astype(np.int64).T
-    keys = low * width + high  # ascending: see connect
-    a, b = pairs.astype(np.int64).T
-    wanted = np.minimum(a, b) * width + np.maximum(a, b)
-    if not len(keys):
-        return np.full(len(pairs), -1)
-    rows = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-    return np.where(keys[rows] == wanted, rows, -1)
+    from surfmesh._core import space  # late, as in ``connect``
+
+    return space.edge_rows(table.edges, np.ascontiguousarray(pairs, np.int32))
 
 
 def split_six_nodes(

@@ -43,7 +43,8 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
     faces = mesh.face_ids[chosen]
     chord = tolerances.at(tolerances.chord, faces)
     here = np.flatnonzero((known.in_plane[chosen] == 0) & (chord > 0.0) & np.isfinite(chord))
-    here = here[np.argsort(faces[here], kind="stable")]
+    if len(mesh.surfaces) > 1:
+        here = here[np.argsort(faces[here], kind="stable")]
     if len(here):
         decided[here] = target[here] >= DECIDED * _allowed(known, chosen[here], chord[here])
     used = fit.by_triangle[chosen[decided]] / chord[decided]
@@ -56,8 +57,9 @@ def _allowed(
     """Size (n,) that the curvature at the middles of triangles (n,), face by face, allows for
     ``chord`` (n,); infinite where it is flat."""
     sizing = known.mesh.sizing
-    faces, first = np.unique(known.mesh.face_ids[triangles], return_index=True)
-    surfaces = [known.core_surfaces[face] for face in faces.tolist()]
+    faces = known.mesh.face_ids[triangles]
+    first = np.flatnonzero(np.diff(faces, prepend=-1))
+    surfaces = [known.core_surfaces[face] for face in faces[first].tolist()]
     ends = np.append(first, len(triangles)).astype(np.int64)
     k1, k2, degenerate = curvatures_at(known.middle_uv(triangles), ends, surfaces)
     if sizing and sizing.is_anisotropic:

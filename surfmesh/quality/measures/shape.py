@@ -30,9 +30,7 @@ class Shapes(NamedTuple):
 
 def shapes(mesh: SurfaceMesh) -> Shapes:
     """Shape of every triangle of ``mesh``."""
-    values = triangle_shapes(mesh.points, mesh.triangles)
-    values[:, 3:] *= 180.0 / np.pi
-    return Shapes(*np.ascontiguousarray(values.T))
+    return Shapes(*triangle_shapes(mesh.points, mesh.triangles))
 
 
 def alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:

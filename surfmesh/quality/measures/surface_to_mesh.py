@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.edges import CurvePieces
 from surfmesh._core.quality import TriangleStars, segment_samples
+from surfmesh._core.surfaces import Curve
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import Deviation
@@ -111,7 +112,8 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
     return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
 
 
-class _Curves(NamedTuple):
+@dataclass(frozen=True)
+class _Curves:
     """The segments of CAD edges, and where their ends lie on the curves of these."""
 
     segments: NDArray[np.int32]  # (k, 2) vertices
@@ -127,19 +129,29 @@ class _Curves(NamedTuple):
             return None
         return cls(links.edge_segments, links.edge_ids, links.edge_parameters, links.edge_curves)
 
+    @cached_property
+    def _core_curves(self) -> list[Curve | None]:
+        """Of the edges, as the core has them; None for an edge without a curve."""
+        return [None if edge.curve is None else edge.curve.core for edge in self.edges]
+
+    @cached_property
+    def _limits(self) -> NDArray[np.float64]:
+        """(e, 2) the ends of the edges, in t of their curves."""
+        return np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
+
     def between(
         self, segments: NDArray[np.intp], t: NDArray[np.float64], nodes: NDArray[np.float64]
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
         """Those of segments (k,) that may lie off their curves, and points (g j, 3) of these at
         ``t`` (j,); nodes: (n, 3) of the mesh. And how far (g,) the nodes of arcs of ellipses are
         from these; infinite for others."""
-        curves = [None if edge.curve is None else edge.curve.core for edge in self.edges]
-        limits = np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
+        if not len(segments):
+            return segments, np.empty((0, 3)), np.empty(0)
         numbers = self.ids[segments]
-        there = segments[(numbers >= 0) & (numbers < len(curves))]
+        there = segments[(numbers >= 0) & (numbers < len(self.edges))]
         found, points, off_arc = segment_samples(
-            curves, limits, self.ids[there], self.ends[there], self.segments[there], nodes, t,
-            ON_CURVE,
+            self._core_curves, self._limits, self.ids[there], self.ends[there],
+            self.segments[there], nodes, t, ON_CURVE,
         )  # fmt: skip
         return there[found], points, off_arc
 

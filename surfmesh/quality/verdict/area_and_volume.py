@@ -127,6 +127,8 @@ def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
             continue
         own = bounds_solid(mesh, row.solid)
         allowed = float(found.volume[own].sum()) / row.volume_exact
+        if abs(row.volume_error) <= allowed + min(INEXACT.values()):
+            continue  # whatever its faces are
         inexact = [
             _inexact(kinds[face].kind if face < len(kinds) else "")
             for face in np.flatnonzero(np.bincount(mesh.face_ids[own])).tolist()
