@@ -206,8 +206,8 @@ def quick_bound(
             return np.inf
         floor, top = SizeRules.of(sizing, model.diagonal).clamp
         limits[id(sizing)] = floor, min([top, *(getattr(s, "size", top) for s in sizing.sources)])
-    floor, top = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
-    smallest = np.maximum(np.minimum(smallest, top), floor)
+    floors, tops = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
+    smallest = np.maximum(np.minimum(smallest, tops), floors)
     return float((TRIANGLES * arrays.area / smallest**2).sum())
 
 
