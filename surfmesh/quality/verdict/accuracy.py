@@ -169,9 +169,7 @@ class NoSurfaceToProve(Remark):
     @property
     def text(self) -> str:
         """Why nothing is, and what would help."""
-        return (
-            "nothing is proved: the mesh carries no surface; name the one of a file beside it"
-        )
+        return "nothing is proved: the mesh carries no surface; name the one of a file beside it"
 
 
 @dataclass(frozen=True, kw_only=True)
