@@ -40,6 +40,8 @@ from surfmesh.errors import CadError
 
 # names that programs make up for an instance; the name of what it is an instance of says more
 MADE_UP = re.compile(r"(NAUO\d*|=>\[.*\]|\d+|NONE|COMPOUND|SOLID|SHELL|)", re.IGNORECASE)
+# what OpenCASCADE writes for a shape that was given no name
+NO_NAME = re.compile(r"Open CASCADE \w+ translator [\d. ]+")
 UNIT_NAMES = {
     "millimetre": "mm", "millimeter": "mm", "mm": "mm", "centimetre": "cm", "cm": "cm",
     "metre": "m", "meter": "m", "m": "m", "inch": "in", "in": "in", "inches": "in", "foot": "ft",
@@ -163,7 +165,8 @@ def _name(label: TDF_Label) -> str:
         return ""
     name = TDataStd_Name()
     label.FindAttribute(TDataStd_Name.GetID_s(), name)
-    return name.Get().ToExtString().strip()
+    found = str(name.Get().ToExtString()).strip()
+    return "" if NO_NAME.fullmatch(found) else found
 
 
 def _colour(label: TDF_Label) -> Colour | None:

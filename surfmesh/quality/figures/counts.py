@@ -15,7 +15,7 @@ SHOWN = 3  # names
 class Counts(Part):
     """How large the mesh is."""
 
-    surface: str  # names of the surfaces
+    surface: str  # names of the surfaces; what they are from, where none has a name of its own
     nodes: int
     triangles: int
     faces: int
@@ -25,14 +25,16 @@ class Counts(Part):
         """Faces are those of the model where it is known."""
         mesh = measured.mesh
         return cls(
-            surface=_names(mesh),
+            surface=_names(mesh, measured.facts.source),
             nodes=len(mesh.points),
             triangles=len(mesh.triangles),
             faces=len(mesh.surfaces) or len(np.unique(mesh.face_ids)),
         )
 
 
-def _names(mesh: SurfaceMesh) -> str:
+def _names(mesh: SurfaceMesh, source: str) -> str:
+    if source and len(mesh.surfaces) > 1 and not any(mesh.groups.face_names):
+        return source
     names = list(dict.fromkeys(map(mesh.groups.face_label, range(len(mesh.surfaces)))))
     more = len(names) - SHOWN
     return ", ".join(names[:SHOWN]) + (f" and {more} more" if more > 0 else "")

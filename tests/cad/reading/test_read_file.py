@@ -13,6 +13,7 @@ cq = pytest.importorskip("cadquery")
 
 import shapes  # noqa: E402
 
+import surfmesh as sm  # noqa: E402
 from surfmesh.cad.reading.limits import Limits  # noqa: E402
 from surfmesh.cad.reading.read_file import Child, begun_reading, read_cad  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
@@ -38,6 +39,14 @@ def test_step_with_names_colours_and_places(tmp_path):
     assert model.faces[0].colour == pytest.approx((1, 0, 0))
     assert model.faces[-1].colour == pytest.approx((0, 0, 1))
     assert {round(v.point[0], 9) for v in model.vertices} == {-0.05, 0.05, 0.45, 0.55}
+
+
+def test_what_opencascade_calls_a_shape_without_a_name_is_no_name(tmp_path):
+    path = tmp_path / "bracket.step"
+    cq.exporters.export(cq.Workplane().box(1, 2, 3), str(path))
+    model = read_cad(path)
+    assert model.name == "bracket"
+    assert sm.check(sm.mesh(model)).counts.surface == "bracket.step"
 
 
 def test_a_damaged_file(tmp_path):
