@@ -1,8 +1,8 @@
 """P-curves that follow their edge more closely than those of the file.
 
 Programs make a p-curve from a few points and state the deviation at those; in between it can be
-ten thousand times worse, mostly because the p-curve runs at another pace than its edge. Then the
-points of the face next to those of the edge give a better one.
+ten thousand times worse, mostly because the p-curve runs at another pace than its edge, or goes
+round from another start. Then the points of the face next to those of the edge give a better one.
 """
 
 from __future__ import annotations
@@ -24,17 +24,20 @@ STEPS = 8  # towards the nearest point
 BETTER = 0.5  # of the old deviation, or the old p-curve stays
 
 
-def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) -> CadCoedge:
+def follows(
+    surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float, is_loop: bool = False
+) -> CadCoedge:
     """The coedge with a p-curve within ``reach`` of its edge, or as near as its face allows.
 
-    The ends stay where they were, so that loops stay closed. The same coedge when no p-curve is
-    much better. The edge is not degenerate.
+    The ends stay where they were, so that loops stay closed; is_loop: it is one by itself, and may
+    start elsewhere. The same coedge when no p-curve is much better. The edge is not degenerate.
     """
     best, deviation = coedge, np.inf
+    ends = coedge.uv(ENDS)
     for spans in SPANS:
         fraction = np.linspace(0.0, 1.0, spans + 1)
         uv, _ = _closest(surface, edge, coedge, fraction)
-        uv[[0, -1]] = coedge.uv(ENDS)
+        uv[[0, -1]] = uv[0] + (ends - ends[0]) if is_loop else ends
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         spline = interpolating_spline(parameters, uv, 3)
         trial = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))

@@ -62,19 +62,30 @@ class Measured:
 
 
 def pcurves_that_follow(measured: Measured, unit: str) -> list[str]:
-    """Replace, in place, p-curves that deviate from their edge by more than the file states."""
+    """Replace, in place, p-curves that deviate from their edge by more than the file states.
+
+    One that makes up a loop by itself must not stray at all: programs raise the tolerance of a
+    circle to its diameter where its p-curve starts right across.
+    """
     edges, faces = measured.edges, measured.faces
-    replaced, worst = set(), 0.0
+    replaced, loops_of_one, worst = set(), set(), 0.0
     for number, distances in enumerate(measured.deviations()):
         face, better = faces[number], {}
         for coedge, distance in zip(face.coedges, distances):
             edge = edges[coedge.edge]
-            if edge.curve is None or distance <= REPORTED * edge.tolerance:
+            is_loop = (coedge,) in face.loops
+            allowed, noise = REPORTED * edge.tolerance, NOISE * edge.length
+            if is_loop:
+                allowed = min(allowed, LOOSE * edge.length)
+            if edge.curve is None or distance <= allowed:
                 continue
-            new = follows(face.surface, edge, coedge, max(edge.tolerance, NOISE * edge.length))
+            reach = noise if is_loop else max(edge.tolerance, noise)
+            new = follows(face.surface, edge, coedge, reach, is_loop)
             if new is not coedge:
                 better[id(coedge)] = new
                 replaced.add(coedge.edge)
+                if is_loop:
+                    loops_of_one.add(coedge.edge)
                 worst = max(worst, distance)
         if better:
             loops = tuple(
@@ -83,11 +94,25 @@ def pcurves_that_follow(measured: Measured, unit: str) -> list[str]:
             faces[number] = replace(face, surface=widened(face.surface, loops), loops=loops)
     if not replaced:
         return []
+    _lower_tolerances(measured, loops_of_one)
     numbers = listed([str(number) for number in sorted(replaced)])
     return [
         f"{'edges' if len(replaced) > 1 else 'edge'} {numbers}: p-curve on a face replaced, "
         f"which strayed by up to {worst:.2g} {unit}"
     ]
+
+
+def _lower_tolerances(measured: Measured, numbers: set[int]) -> None:
+    """State, in place, tolerances of edges as they are measured, where they are stated larger."""
+    farthest = dict.fromkeys(numbers, 0.0)
+    for face, distances in zip(measured.faces, measured.deviations()):
+        for coedge, distance in zip(face.coedges, distances.tolist()):
+            if coedge.edge in farthest:
+                farthest[coedge.edge] = max(distance, farthest[coedge.edge])
+    for number, distance in farthest.items():
+        edge = measured.edges[number]
+        true = max(distance, NOISE * edge.length)
+        measured.edges[number] = replace(edge, tolerance=min(edge.tolerance, true))
 
 
 def curves_on_their_faces(measured: Measured, unit: str) -> list[str]:

@@ -1,5 +1,7 @@
 """A p-curve that runs at the wrong pace, or beside its edge, gives way to a better one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -35,6 +37,17 @@ def test_a_straying_pcurve_is_replaced(middle):
     assert deviation(EDGE, better) < 1e-7
     ends = np.array([0.0, 1.0])
     assert better.uv(ends) == pytest.approx(strayed.uv(ends), abs=1e-14)
+
+
+def test_a_pcurve_that_is_a_loop_by_itself_may_start_elsewhere():
+    turn = 2.0 * np.pi
+    round_edge = replace(EDGE, t1=turn, end=0, length=2.0 * turn)
+    wide = replace(CYLINDER, domain=((-1.0, 8.0), (-1.0, 1.0)))
+    away = coedge([[0.5 + turn * t, 0.0] for t in (0.0, 1 / 3, 2 / 3, 1.0)])
+    better = follows(wide, round_edge, away, 1e-7, is_loop=True)
+    assert deviation(round_edge, better) < 1e-7
+    start, end = better.uv(np.array([0.0, 1.0]))
+    assert end - start == pytest.approx([turn, 0.0], abs=1e-14)
 
 
 def test_a_pcurve_that_cannot_be_better_stays():

@@ -19,3 +19,14 @@ def test_vertices_follow_curves_that_are_replaced():
     height = 0.005
     volume = 2 * np.pi * height**2 * (1 - height / 3)
     assert abs(mesh.report.volume / volume - 1) < 0.2
+
+
+def test_a_p_curve_that_goes_round_from_another_start_is_replaced():
+    """The tolerance of the circle was its diameter, so that nothing seemed to stray."""
+    ball = cq.Workplane("XY").sphere(2)
+    cut = ball.cut(cq.Workplane("XZ", origin=(-1.1, 0.5, 1.7)).sphere(1.4))
+    model = sm.from_cadquery(cut)
+    assert max(edge.tolerance for edge in model.edges) < 1e-4
+    assert any("p-curve on a face replaced" in text for text in model.healing)
+    report = sm.check(sm.mesh(model, chord=0.02))
+    assert report.clean
