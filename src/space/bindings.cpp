@@ -131,9 +131,7 @@ void bind_edge_table(nb::module_& m) {
         "edge_rows",
         [](const HalfEdges& edges, const HalfEdges& pairs) {
             const auto ends = rows<EdgeTable::Ends>(edges);
-            if (!std::is_sorted(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
-                    return std::tie(a.lower, a.higher) < std::tie(b.lower, b.higher);
-                }))
+            if (!std::is_sorted(ends.begin(), ends.end()))
                 throw nb::value_error("edges are not in order");
             Array<std::int64_t> found;
             {

@@ -104,17 +104,14 @@ Array<std::int64_t> edge_rows(std::span<const EdgeTable::Ends> edges,
     Array<std::size_t> first(is_sparse ? 2 : high - low + 2, 0);
     for (const auto& edge : edges) ++first[place(edge.lower) + 1];
     for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    const auto is_less = [](const EdgeTable::Ends& a, const EdgeTable::Ends& b) {
-        return std::tie(a.lower, a.higher) < std::tie(b.lower, b.higher);
-    };
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto [a, b] = pairs[k];
         const EdgeTable::Ends pair{std::min(a, b), std::max(a, b)};
         if (pair.lower < low || pair.lower > high) continue;
         const std::size_t begin = first[place(pair.lower)], end = first[place(pair.lower) + 1];
         const auto near = edges.subspan(begin, end - begin);
-        const auto there = std::lower_bound(near.begin(), near.end(), pair, is_less);
-        if (there != near.end() && !is_less(pair, *there))
+        const auto there = std::lower_bound(near.begin(), near.end(), pair);
+        if (there != near.end() && *there == pair)
             rows[k] = static_cast<std::int64_t>(begin) + (there - near.begin());
     }
     return rows;

@@ -5,6 +5,7 @@
 // first, and how many there are. A repeated corner gives a loop, an edge like any other.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -16,6 +17,8 @@ namespace surfmesh {
 struct EdgeTable {
     struct Ends {
         Vertex lower, higher;
+
+        friend auto operator<=>(const Ends&, const Ends&) = default;
     };
     struct Sides {
         std::int32_t first, second;  // NIL: there is no second

@@ -9,12 +9,6 @@ namespace {
 
 using DerivativeRanges = std::array<Interval, derivative_count(3)>;
 
-constexpr double SHIFT_ROUNDING = 0x1p-48;  // more than that of a dot product, of its terms
-
-constexpr std::size_t number_of(std::size_t k, std::size_t l) {
-    return (k + l) * (k + l + 1) / 2 + l;
-}
-
 /// Of A / w, in the sequence of derivatives; s: the range of the quotient itself.
 DerivativeRanges quotient_ranges(const DerivativeRanges& a, const DerivativeRanges& w, Interval s,
                                  std::size_t order) {
@@ -25,16 +19,16 @@ DerivativeRanges quotient_ranges(const DerivativeRanges& a, const DerivativeRang
     for (std::size_t n = 1; n <= order; ++n)
         for (std::size_t l = 0; l <= n; ++l) {
             const std::size_t k = n - l;
-            Interval sum = a[number_of(k, l)];
+            Interval sum = a[derivative_number(k, l)];
             for (std::size_t i = 0; i <= k; ++i)
                 for (std::size_t j = 0; j <= l; ++j) {
                     if (i + j == 0) continue;
-                    const Interval term =
-                        outward::multiply(w[number_of(i, j)], found[number_of(k - i, l - j)]);
+                    const Interval term = outward::multiply(w[derivative_number(i, j)],
+                                                            found[derivative_number(k - i, l - j)]);
                     const Interval times = outward::exactly(OVER[k][i] * OVER[l][j]);
                     sum = outward::subtract(sum, outward::multiply(times, term));
                 }
-            found[number_of(k, l)] = outward::divide(sum, w[0]);
+            found[derivative_number(k, l)] = outward::divide(sum, w[0]);
         }
     return found;
 }
@@ -90,9 +84,8 @@ class NetBounds {
         const Interval s = is_known ? quotients.scaled(1.0, off) : UNBOUNDED;
         DerivativeRanges found = quotient_ranges(ranges_of(numbers_, 4.0 * moved), weight_, s,
                                                  static_cast<std::size_t>(order_));
-        const double shift = dot(direction, about_);
-        const double margin = SHIFT_ROUNDING * norm_1(direction) * norm_1(about_);
-        found[0] = outward::add(found[0], {shift - margin, shift + margin});
+        found[0] =
+            outward::add(found[0], outward::along_between(direction, {0.0, 0.0, 0.0}, about_));
         return found;
     }
     [[nodiscard]] std::size_t at_corner() const {

@@ -31,6 +31,9 @@ struct SpanPart {
 [[nodiscard]] bool split_at_knots(const SplineBasis& basis, double first, double last,
                                   Array<SpanPart>& parts);
 
+/// Of splines whose pieces are asked for: what CAD kernels allow.
+inline constexpr std::size_t HIGHEST_DEGREE = 25;
+
 /// x, y, z and the weight of a control point, the first three times the weight.
 using Homogeneous = std::array<double, 4>;
 

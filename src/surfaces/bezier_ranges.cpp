@@ -1,5 +1,7 @@
 #include "surfaces/bezier_ranges.hpp"
 
+#include "surfaces/surface.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -57,7 +59,7 @@ void derivative_ranges(const BezierNumbers& c, int order, const BezierCorner* co
                 for (std::size_t j = 0; j < columns; ++j) found.take(by_both[i * c.columns + j]);
             // the errors of 2^(k + l) coefficients, and as much for the rounding of differences
             const double error = static_cast<double>(std::size_t{2} << (k + l)) * c.error;
-            out[(k + l) * (k + l + 1) / 2 + l] = found.scaled(factor, error);
+            out[derivative_number(k, l)] = found.scaled(factor, error);
             factor *= static_cast<double>(c.rows - 1 - std::min(k, c.rows - 1)) * per(c.width_u);
             for (std::size_t i = 0; i + 1 < rows; ++i)
                 for (std::size_t j = 0; j < columns; ++j)

@@ -39,6 +39,15 @@ inline Interval coordinate(const BoxedVector& a, std::size_t axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
+/// d . (to - from), which is rounded by less than the margin, of its terms.
+inline Interval along_between(const Point3& d, const Point3& from, const Point3& to) {
+    constexpr double ROUNDED = 0x1p-48;
+    const double way = surfmesh::dot(d, to - from);
+    const double margin =
+        ROUNDED * surfmesh::norm_1(d) * (surfmesh::norm_1(to) + surfmesh::norm_1(from));
+    return {way - margin, way + margin};
+}
+
 /// a . a, which is not negative.
 inline Interval square(const BoxedVector& a) {
     const auto of = [](Interval x) { return rounded(intervals::integer_power(x, 2)); };

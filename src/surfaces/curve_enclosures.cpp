@@ -46,12 +46,9 @@ bool tangent_without_knots(const Curve& curve, double t, BoxedVector& out) {
 
 bool Line::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& out) const {
     using namespace outward;
-    const double slope = dot(w, direction_), start = dot(w, origin_ - about);
-    const double margin = ROUNDING * norm_1(w);
-    const Interval rate = wider(exactly(slope), margin * norm_1(direction_));
-    out = {
-        {add(wider(exactly(start), margin * (norm_1(origin_) + norm_1(about))), multiply(rate, t)),
-         rate, exactly(0.0)}};
+    const Interval rate =
+        wider(exactly(dot(w, direction_)), ROUNDING * norm_1(w) * norm_1(direction_));
+    out = {{add(along_between(w, about, origin_), multiply(rate, t)), rate, exactly(0.0)}};
     return true;
 }
 
@@ -60,8 +57,7 @@ bool Conic::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& out) c
     const auto& [origin, x, y] = axes_;
     const double size = norm_1(w) * (norm_1(x) + norm_1(y));
     const double a = dot(w, x), b = dot(w, y);
-    const Interval start = wider(exactly(dot(w, origin - about)),
-                                 ROUNDING * norm_1(w) * (norm_1(origin) + norm_1(about)));
+    const Interval start = along_between(w, about, origin);
     if (kind_ == ConicKind::PARABOLA) {
         const double rounding = ROUNDING * size;
         const Interval i = wider(exactly(a), rounding), j = wider(exactly(b), rounding);

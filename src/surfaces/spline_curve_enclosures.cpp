@@ -9,16 +9,15 @@
 #include <cmath>
 
 #include "surfaces/bezier_ranges.hpp"
+#include "surfaces/boxed_vectors.hpp"
 #include "surfaces/spline_creases.hpp"
 #include "surfaces/spline_curve.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t HIGHEST_DEGREE = 25;  // what CAD kernels allow
 // parts so narrow for their range are counted by how much the first derivative changes over them
 constexpr double THIN_OF_RANGE = 0x1p-10;
-constexpr double ABOUT_ROUNDING = 0x1p-48;  // more than that of a dot product, of its terms
 constexpr std::array<Interval, 3> NO_RANGES = {UNBOUNDED, UNBOUNDED, UNBOUNDED};
 
 /// Along a vector of size 1 at most, of coefficients about a point.
@@ -86,9 +85,7 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& 
             ranges_along({control.data(), degree + 1}, unit, part.last - part.first, error, largest,
                          !weights_.empty());
         for (Interval& range : found) range = widened(multiply(exactly(size), range), 8.0);
-        const Point3 apart = middle - about;
-        const double margin = ABOUT_ROUNDING * size * (norm_1(middle) + norm_1(about));
-        found[0] = add(found[0], {dot(w, apart) - margin, dot(w, apart) + margin});
+        found[0] = add(found[0], along_between(w, about, middle));
         for (std::size_t k = 0; k < 2; ++k) out[k] = n == 0 ? found[k] : hull(out[k], found[k]);
         if (part.width < THIN_OF_RANGE * whole) {
             out.jump += above(part.width * magnitude(found[2])) * (1.0 + 8.0 * ULP);

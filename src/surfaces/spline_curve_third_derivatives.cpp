@@ -6,19 +6,6 @@
 #include "surfaces/spline_curve.hpp"
 
 namespace surfmesh {
-namespace {
-
-constexpr std::size_t HIGHEST_DEGREE_OF_THIRD = 25;  // what CAD kernels allow
-constexpr double MIDDLE_ROUNDING = 0x1p-48;  // more than that of a dot product, of its terms
-
-/// d . (middle - about)
-Interval shift_along(Point3 d, Point3 middle, Point3 about) {
-    const double shift = dot(d, middle - about);
-    const double margin = MIDDLE_ROUNDING * norm_1(d) * (norm_1(middle) + norm_1(about));
-    return {shift - margin, shift + margin};
-}
-
-}  // namespace
 
 /// Over a part, of the derivatives up to the order, or at its first or last parameter where that is
 /// given; the curve itself about a point.
@@ -39,9 +26,10 @@ CurveBoxes SplineCurve::boxes_of_part(const SpanPart& part, const Directions& di
     BezierWork work(count);
     const DerivativeBoxes found = boxes_of_net(net, directions, order, end, work);
     const auto& [x, y, z] = found[0];
-    const BoxedVector value = {outward::add(x, shift_along(directions[0], middle, about)),
-                               outward::add(y, shift_along(directions[1], middle, about)),
-                               outward::add(z, shift_along(directions[2], middle, about))};
+    const BoxedVector value = {
+        outward::add(x, outward::along_between(directions[0], about, middle)),
+        outward::add(y, outward::along_between(directions[1], about, middle)),
+        outward::add(z, outward::along_between(directions[2], about, middle))};
     return {value, found[1], found[3], found[6]};
 }
 
@@ -49,7 +37,7 @@ bool SplineCurve::enclose_third(Interval t, const Directions& directions, Point3
                                 CurveParts& out) const {
     Array<SpanPart> parts;
     out.boxes.clear();
-    if (basis_.degree() > HIGHEST_DEGREE_OF_THIRD || !split_at_knots(basis_, t.lo, t.hi, parts) ||
+    if (basis_.degree() > HIGHEST_DEGREE || !split_at_knots(basis_, t.lo, t.hi, parts) ||
         !jumps_before(basis_, parts, out.jumps))
         return false;
     for (const SpanPart& part : parts)
@@ -58,7 +46,7 @@ bool SplineCurve::enclose_third(Interval t, const Directions& directions, Point3
 }
 
 bool SplineCurve::enclose_tangent(double t, BoxedVector& out) const {
-    if (basis_.degree() > HIGHEST_DEGREE_OF_THIRD) return false;
+    if (basis_.degree() > HIGHEST_DEGREE) return false;
     const auto places = places_at(basis_, t, {basis_.limits().first, basis_.limits().last});
     for (std::size_t i = 0; i < places.count; ++i) {
         const BezierCorner end{places.from_last[i], false};

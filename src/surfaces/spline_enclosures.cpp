@@ -19,8 +19,6 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t HIGHEST = 25;  // degree: what CAD kernels allow
-
 struct BendsAlong {
     Interval uu, uv, vv;
 };
@@ -119,7 +117,7 @@ class JoinedBends {
 
 SurfaceStatus SplineSurface::enclose(std::span<const Point2> uv,
                                      std::span<EnclosedPoint> out) const {
-    if (u_.degree() > HIGHEST || v_.degree() > HIGHEST) return SurfaceStatus::UNKNOWN;
+    if (u_.degree() > HIGHEST_DEGREE || v_.degree() > HIGHEST_DEGREE) return SurfaceStatus::UNKNOWN;
     Array<Point3> r(uv.size());
     const auto status = evaluate(uv, 0, {r.data(), r.size()});
     double least = 1.0, most = 1.0;
@@ -147,7 +145,7 @@ struct SplineSurface::Work {
 SurfaceStatus SplineSurface::enclose_bends(std::span<const ParameterBox> cells,
                                            std::span<const Directions> directions,
                                            std::span<Bends> out) const {
-    if (u_.degree() > HIGHEST || v_.degree() > HIGHEST) return SurfaceStatus::UNKNOWN;
+    if (u_.degree() > HIGHEST_DEGREE || v_.degree() > HIGHEST_DEGREE) return SurfaceStatus::UNKNOWN;
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1, count = rows * columns;
     Work work;
     work.control.resize(count);

@@ -73,11 +73,6 @@ ControlNet derived(const ControlNet& net, const SplineBasis& basis, std::int64_t
 /// Magnitudes of the derivatives of w r and w, in the sequence of the surface's.
 using Magnitudes = std::array<WeightedPoint, 10>;
 
-constexpr std::size_t derivative_number(int by_u, int by_v) {
-    const int total = by_u + by_v;
-    return static_cast<std::size_t>(total * (total + 1) / 2 + by_v);
-}
-
 /// Bounds of derivatives k >= 1 of r from those of w r and w; least: of w.
 void divide_by_weight(const Magnitudes& part, double least, std::size_t count,
                       std::span<Point3> out) {

@@ -7,11 +7,6 @@ namespace {
 template <int order>
 using PointDerivatives = std::array<Point3, derivative_count(order)>;
 
-constexpr std::size_t number_of(int by_u, int by_v) {
-    const int total = by_u + by_v;
-    return static_cast<std::size_t>(total * (total + 1) / 2 + by_v);
-}
-
 /// Derivatives of r from those of w r and of w; A4.4.
 template <int order>
 void divide_by_weight(PointDerivatives<order>& r,
@@ -25,7 +20,8 @@ void divide_by_weight(PointDerivatives<order>& r,
             double inner = outer;
             for (int j = 0; j <= l; ++j) {
                 if (i + j > 0)
-                    value = value - inner * weight[number_of(i, j)] * r[number_of(k - i, l - j)];
+                    value = value - inner * weight[derivative_number(i, j)] *
+                                        r[derivative_number(k - i, l - j)];
                 inner = inner * (l - j) / (j + 1);
             }
             outer = outer * (k - i) / (i + 1);

@@ -8,11 +8,6 @@
 #include "surfaces/spline_surface.hpp"
 
 namespace surfmesh {
-namespace {
-
-constexpr std::size_t HIGHEST_OF_THIRD = 25;  // degree: what CAD kernels allow
-
-}  // namespace
 
 /// What is worked in, for one part after the other.
 struct SplineSurface::ThirdWork {
@@ -44,7 +39,7 @@ DerivativeBoxes SplineSurface::boxes_of_part(const PartOfCell& part, const Direc
 
 bool SplineSurface::enclose_third(const ParameterBox& cell, const Directions& directions,
                                   PartBoxes& out) const {
-    if (std::max(u_.degree(), v_.degree()) > HIGHEST_OF_THIRD) return false;
+    if (std::max(u_.degree(), v_.degree()) > HIGHEST_DEGREE) return false;
     ThirdWork work(u_.degree() + 1, v_.degree() + 1);
     if (!split_at_knots(u_, cell.low.x, cell.high.x, work.u) ||
         !split_at_knots(v_, cell.low.y, cell.high.y, work.v) ||
@@ -62,7 +57,7 @@ bool SplineSurface::enclose_third(const ParameterBox& cell, const Directions& di
 }
 
 bool SplineSurface::enclose_tangents(Point2 uv, TangentBoxes& out) const {
-    if (std::max(u_.degree(), v_.degree()) > HIGHEST_OF_THIRD) return false;
+    if (std::max(u_.degree(), v_.degree()) > HIGHEST_DEGREE) return false;
     ThirdWork work(u_.degree() + 1, v_.degree() + 1);
     const auto places_u = places_at(u_, uv.x, {domain_.low.x, domain_.high.x});
     const auto places_v = places_at(v_, uv.y, {domain_.low.y, domain_.high.y});

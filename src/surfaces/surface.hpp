@@ -24,9 +24,12 @@ struct ParameterBox {
 /// How many arrays there are to an order of derivatives: 1, 3, 6, 10.
 ///
 /// Their sequence is r; r_u, r_v; r_uu, r_uv, r_vv; r_uuu, r_uuv, r_uvv, r_vvv: the one with k
-/// times d/du and l times d/dv has the number (k + l)(k + l + 1)/2 + l.
+/// times d/du and l times d/dv has the number that follows.
 constexpr std::size_t derivative_count(int order) {
     return static_cast<std::size_t>((order + 1) * (order + 2) / 2);
+}
+constexpr std::size_t derivative_number(std::size_t k, std::size_t l) {
+    return (k + l) * (k + l + 1) / 2 + l;
 }
 
 enum class [[nodiscard]] SurfaceStatus {

@@ -40,7 +40,7 @@ SurfaceStatus RevolutionSurface::evaluate(std::span<const Point2> uv, int order,
             const Point3 turned = cosine * across + sine * beside;
             const Point3 ahead = cosine * beside - sine * across;  // its derivative
             for (int k = 0; k + l <= order; ++k) {
-                const auto number = static_cast<std::size_t>((k + l) * (k + l + 1) / 2 + l);
+                const auto number = derivative_number(k, l);
                 const Point3 value = k % 2 == 0 ? turned : ahead;
                 Point3& result = out[number * count + i];
                 result = k < 2 ? value : -1.0 * value;

@@ -56,7 +56,7 @@ DerivativeBoxes turned_boxes(const TurnedParts& parts, std::size_t part, Interva
                 Interval value = k % 2 == 0 ? turned : ahead;
                 if (k >= 2) value = intervals::negative(value);
                 if (k == 0) value = outward::add(value, outward::coordinate(along[l], axis));
-                outward::coordinate(boxes[(k + l) * (k + l + 1) / 2 + l], axis) = value;
+                outward::coordinate(boxes[derivative_number(k, l)], axis) = value;
             }
         }
     }

@@ -104,15 +104,19 @@ def pcurves_that_follow(measured: Measured, unit: str) -> list[str]:
 
 def _lower_tolerances(measured: Measured, numbers: set[int]) -> None:
     """State, in place, tolerances of edges as they are measured, where they are stated larger."""
-    farthest = dict.fromkeys(numbers, 0.0)
-    for face, distances in zip(measured.faces, measured.deviations()):
-        for coedge, distance in zip(face.coedges, distances.tolist()):
-            if coedge.edge in farthest:
-                farthest[coedge.edge] = max(distance, farthest[coedge.edge])
-    for number, distance in farthest.items():
+    true = _farthest(measured, np.array([NOISE * edge.length for edge in measured.edges]))
+    for number in numbers:
         edge = measured.edges[number]
-        true = max(distance, NOISE * edge.length)
-        measured.edges[number] = replace(edge, tolerance=min(edge.tolerance, true))
+        tolerance = min(edge.tolerance, float(true[number]))
+        measured.edges[number] = replace(edge, tolerance=tolerance)
+
+
+def _farthest(measured: Measured, least: np.ndarray) -> np.ndarray:
+    """How far (e,) the p-curves of each edge stray from it, no less than ``least`` (e,)."""
+    users = [coedge.edge for face in measured.faces for coedge in face.coedges]
+    found = least.copy()
+    np.maximum.at(found, users, np.concatenate(measured.deviations()))
+    return found
 
 
 def curves_on_their_faces(measured: Measured, unit: str) -> list[str]:
@@ -187,9 +191,7 @@ def tolerances_that_hold(measured: Measured, unit: str) -> list[str]:
     """
     edges, vertices = measured.edges, measured.vertices
     stated = np.array([edge.tolerance for edge in edges])
-    users = [coedge.edge for face in measured.faces for coedge in face.coedges]
-    true = stated.copy()
-    np.maximum.at(true, users, np.concatenate(measured.deviations()))
+    true = _farthest(measured, stated)
     for number in np.flatnonzero(true > stated):
         edges[number] = replace(edges[number], tolerance=float(true[number]))
     real = [edge for edge in edges if edge.curve is not None]
