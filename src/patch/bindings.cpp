@@ -58,8 +58,10 @@ struct BoundPatch {
         raise_if_stopped();
         return found;
     }
-    void run_pass(void (*pass)(PatchState&)) {
-        run([pass](PatchState& s) {
+    /// The same of what finds nothing.
+    template <class Pass>
+    void run_pass(Pass pass) {
+        run([&](PatchState& s) {
             pass(s);
             return true;
         });
@@ -110,16 +112,14 @@ void construct(BoundPatch* made, Triangulation& t, const Numbers& node, const Nu
     new (made) BoundPatch(std::move(patch));
 }
 
-void bind_passes(nb::class_<BoundPatch>& c) {
+/// Passes that move vertices and keep all triangles.
+void bind_moves(nb::class_<BoundPatch>& c) {
     c.def("find_stars", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.find_stars(); }); });
     c.def(
         "set_frames",
         [](BoundPatch& p, const Numbers& vertices) {
             require_indices(rows<Vertex>(vertices), p.state.t.xy.size(), "vertices");
-            p.run([&](PatchState& s) {
-                s.set_frames(rows<Vertex>(vertices));
-                return true;
-            });
+            p.run_pass([&](PatchState& s) { s.set_frames(rows<Vertex>(vertices)); });
         },
         nb::arg("vertices"), "Put vertices (n,) back on the surface, with their exact metric.");
     c.def(
@@ -130,26 +130,22 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         nb::arg("stiffness") = STIFFNESS,
         "Move every active vertex by one Newton step; returns how many have moved.");
     c.def(
-        "swap",
-        [](BoundPatch& p, double good) {
-            p.run([&](PatchState& s) {
-                s.swap(good);
-                return true;
-            });
-        },
-        nb::arg("good") = GOOD_SHAPE,
-        "Swap edges of triangles below the alpha ``good`` while that raises the smaller one.");
-    c.def(
         "raise_worst",
         [](BoundPatch& p, double least) {
-            p.run([&](PatchState& s) {
-                s.raise_worst(least);
-                return true;
-            });
+            p.run_pass([&](PatchState& s) { s.raise_worst(least); });
         },
         nb::arg("least"),
         "Raise the smallest alpha around triangles below ``least`` by moves of their free "
         "corners.");
+}
+
+/// Passes that swap edges.
+void bind_swaps(nb::class_<BoundPatch>& c) {
+    c.def(
+        "swap",
+        [](BoundPatch& p, double good) { p.run_pass([&](PatchState& s) { s.swap(good); }); },
+        nb::arg("good") = GOOD_SHAPE,
+        "Swap edges of triangles below the alpha ``good`` while that raises the smaller one.");
     c.def(
         "swap_for_degree",
         [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.swap_for_degree(); }); },
@@ -161,8 +157,11 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         },
         nb::arg("bad"),
         "The same at triangles below the alpha ``bad`` on straight borders, where vertices of "
-        "three "
-        "triangles are regular. Returns the swaps made.");
+        "three triangles are regular. Returns the swaps made.");
+}
+
+/// Passes that take vertices away or add some.
+void bind_removals_and_splits(nb::class_<BoundPatch>& c) {
     c.def(
         "remove_at_border",
         [](BoundPatch& p, double bad) {
@@ -177,31 +176,20 @@ void bind_passes(nb::class_<BoundPatch>& c) {
     c.def(
         "remove_worst",
         [](BoundPatch& p, double least) {
-            p.run([&](PatchState& s) {
-                s.remove_worst(least);
-                return true;
-            });
+            p.run_pass([&](PatchState& s) { s.remove_worst(least); });
         },
         nb::arg("least"),
         "Remove corners of triangles below ``least`` where that raises the smallest alpha around.");
     c.def(
         "insert_at_worst",
         [](BoundPatch& p, double least) {
-            p.run([&](PatchState& s) {
-                s.insert_at_worst(least);
-                return true;
-            });
+            p.run_pass([&](PatchState& s) { s.insert_at_worst(least); });
         },
         nb::arg("least"),
         "Add vertices at triangles below ``least`` where that raises the smallest alpha around.");
     c.def(
         "split",
-        [](BoundPatch& p, double longest) {
-            p.run([&](PatchState& s) {
-                s.split(longest);
-                return true;
-            });
-        },
+        [](BoundPatch& p, double longest) { p.run_pass([&](PatchState& s) { s.split(longest); }); },
         nb::arg("longest") = LONGEST, "Split interior edges of active vertices that are longer.");
     c.def(
         "split_farthest",
@@ -271,8 +259,8 @@ void bind_schedule(nb::class_<BoundPatch>& c) {
     c.def("mapped", &mapped, nb::arg("node_uv"), nb::arg("node"), nb::arg("segments"),
           nb::arg("identity"),
           "The triangles in space, seams identified; no pass may come after.\n\nnode_uv: (j, 2) of "
-          "the nodes that have a "
-          "vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, "
+          "the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity "
+          "(k,): of boundary loops, "
           "the vertex of each node or NIL, pairs of nodes, and for each node the first that is the "
           "same point in space; empty where nothing is identified.");
     c.def(
@@ -323,7 +311,9 @@ void bind_patch(nb::module_& m) {
                                  "A triangulated domain with its surface frames, and the passes "
                                  "of the optimiser on it.");
     bind_state(patch);
-    bind_passes(patch);
+    bind_moves(patch);
+    bind_swaps(patch);
+    bind_removals_and_splits(patch);
     bind_schedule(patch);
     bind_patch_mesh(m);
 }

@@ -201,14 +201,14 @@ class PatchState:
         Move every active vertex by one Newton step; returns how many have moved.
         """
 
-    def swap(self, good: float = 0.82) -> None:
-        """
-        Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
-        """
-
     def raise_worst(self, least: float) -> None:
         """
         Raise the smallest alpha around triangles below ``least`` by moves of their free corners.
+        """
+
+    def swap(self, good: float = 0.82) -> None:
+        """
+        Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
         """
 
     def swap_for_degree(self) -> None:
