@@ -6,6 +6,7 @@
 #include <string>
 
 #include "binding/arrays.hpp"
+#include "edges/checked_arguments.hpp"
 #include "edges/curve_pieces.hpp"
 #include "edges/edge_courses.hpp"
 #include "edges/edge_cutting.hpp"
@@ -14,20 +15,10 @@
 #include "edges/rim_sags.hpp"
 
 namespace surfmesh::binding {
+
+void bind_sides(nb::module_& m);
+
 namespace {
-
-using Numbers = Vector<double>;
-using Indices = Vector<std::int64_t>;
-using Flags = Vector<std::uint8_t>;
-
-void require_offsets(const Indices& offsets, std::size_t count, std::size_t last,
-                     const char* what) {
-    const auto values = rows<std::int64_t>(offsets);
-    if (values.size() != count + 1 || values.front() != 0 ||
-        values.back() != static_cast<std::int64_t>(last) ||
-        !std::is_sorted(values.begin(), values.end()))
-        throw nb::value_error((std::string(what) + " has no offsets of its rows").c_str());
-}
 
 CurvePieces pieces_of(const nb::list& curves, const Numbers& t0, const Numbers& t1) {
     require_rows(t0.shape(0), curves.size(), "t0");
@@ -49,15 +40,6 @@ PiecePlaces checked_places(const CurvePieces& pieces, const Indices& which, cons
         if (!pieces.curves[static_cast<std::size_t>(piece)])
             throw nb::value_error("which has a piece without a curve");
     return {numbers, rows<std::int64_t>(first), rows<double>(fraction)};
-}
-
-SharedSurfaces surfaces_of(const nb::list& given, std::size_t count) {
-    require_rows(given.size(), count, "surfaces");
-    SharedSurfaces surfaces;
-    surfaces.reserve(given.size());
-    for (const nb::handle surface : given)
-        surfaces.push_back(nb::cast<std::shared_ptr<Surface>>(surface));
-    return surfaces;
 }
 
 auto arrays_of(const SurfaceCurvatures& found) {
@@ -274,6 +256,7 @@ void bind_edges(nb::module_& m) {
     bind_courses(m);
     bind_gradation(m);
     bind_cutting(m);
+    bind_sides(m);
 }
 
 }  // namespace surfmesh::binding

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "edges/rim_sags.hpp"
+#include "values/interpolation.hpp"
 
 namespace surfmesh {
 namespace {
@@ -12,28 +13,6 @@ constexpr int RIM_ROUNDS = 8;            // how often an edge is cut anew
 constexpr double RIM_MARGIN = 0.98;      // what is aimed at, as a fraction of the chord
 constexpr std::size_t MANY_PIECES = 64;  // from so many on those that sag too much are halved
 constexpr double LARGEST_FACTOR = 2.0;   // of the number of pieces, in one round
-
-/// Values of a piecewise linear function, at places that rise: (at[i], value[i]), constant beyond.
-class Interpolation {
-  public:
-    Interpolation(std::span<const double> at, std::span<const double> value)
-        : at_(at), value_(value) {}
-
-    double operator()(double x) {
-        const std::size_t last = at_.size() - 1;
-        if (x > at_[last]) return value_[last];
-        if (x < at_[0]) return value_[0];
-        const auto after = std::upper_bound(at_.begin(), at_.end(), x);
-        const std::size_t j = static_cast<std::size_t>(after - at_.begin()) - 1;
-        if (j == last || at_[j] == x) return value_[j];
-        const double slope = (value_[j + 1] - value_[j]) / (at_[j + 1] - at_[j]);
-        const double found = slope * (x - at_[j]) + value_[j];
-        return std::isnan(found) ? slope * (x - at_[j + 1]) + value_[j + 1] : found;
-    }
-
-  private:
-    std::span<const double> at_, value_;
-};
 
 class Cutting {
   public:
@@ -83,7 +62,7 @@ class Cutting {
             divide(edge, static_cast<std::size_t>(pieces));
             if (!keep_to_chord(k, start)) return false;
         }
-        Interpolation size(of(fraction_, edge), of(sizes_, edge));
+        const Interpolation size(of(fraction_, edge), of(sizes_, edge));
         for (std::size_t i = found_.sizes.size(); i < found_.t.size(); ++i)
             found_.sizes.push_back(size(found_.t.data()[i]));
         found_.first.push_back(static_cast<std::int64_t>(found_.t.size()));
@@ -146,7 +125,7 @@ class Cutting {
 
     /// Add the nodes of so many pieces of equal metric length.
     void divide(std::int64_t edge, std::size_t pieces) {
-        Interpolation parameter({metric_.data(), metric_.size()}, of(fraction_, edge));
+        const Interpolation parameter({metric_.data(), metric_.size()}, of(fraction_, edge));
         const double length = metric_.back();
         for (std::size_t i = 0; i <= pieces; ++i) {
             const double t = static_cast<double>(i) / static_cast<double>(pieces);

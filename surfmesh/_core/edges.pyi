@@ -63,3 +63,61 @@ def cut_to_metric_length(curves: CurvePieces, points: Annotated[NDArray[numpy.fl
 
     points (n, 3), fraction (n,), sizes (n,): samples, of edge e those from first[e] to first[e + 1]; ends (e, 2): rows of corners (v, 3). fewest (k,): pieces. given: the nodes of row i from first_given[i] to first_given[i + 1], none where they are to be found. chord (k,): what a found piece may sag by at most, infinite for nothing, unless its chord is no longer than shortest (k,).
     """
+
+def narrow_faces(curves: CurvePieces, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_loop: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: float, faces: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], width: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pcurves: CurvePieces, surfaces: list) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Of faces (k,) that may be narrower than width (k,): (9 k,) int64, for each of them the start and the number of coedges of side 0, side 1, end 0 and end 1, and whether the sides are loops; and their largest ways across (k,), below 0 of those that are not narrow.
+
+    points (n, 3), t (n,): samples, of edge e those from first[e] to first[e + 1]. edge, is_reversed (c,): coedges of all faces, loop after loop; pcurves: of these. length: of the edges. area: of the faces. surfaces: k.
+    """
+
+class MateRuns:
+    """Parts of edges that run beside another edge, sample by sample."""
+
+    def __init__(self, edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], mate: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], foot: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], gap: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        edge, mate (k,): numbers. t (n,) rising, foot (n,): fractions of the ranges of both; gap (n,): distances; of run i from first[i] to first[i + 1].
+        """
+
+    def __len__(self) -> int: ...
+
+    @property
+    def edge(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,), writable=False)]:
+        """(k,) int64"""
+
+    @property
+    def mate(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,), writable=False)]:
+        """(k,) int64"""
+
+    @property
+    def first(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,), writable=False)]:
+        """(k + 1,) int64"""
+
+    @property
+    def t(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(n,)"""
+
+    @property
+    def foot(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(n,)"""
+
+    @property
+    def gap(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(n,) model units"""
+
+def mate_runs(curves: CurvePieces, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], first_use: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], own: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], other: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], width: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fewest: int) -> MateRuns:
+    """
+    The runs of chains of edges along others.
+
+    uses, is_reversed (m,): edges of chain c from first_use[c] to first_use[c + 1]. own, other (p,): pairs of chains, mates up to width (p,), in runs of ``fewest`` samples or more.
+    """
+
+def lowered_to_mates(runs: MateRuns, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Sizes (n,) at samples, lowered to those of their mates."""
+
+def mated_cuts(runs: MateRuns, curves: CurvePieces, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], total_curvature: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fewest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], shortest: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: float, most: float) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Nodes of edges with mates that face each other: edges (k,), offsets (k + 1,), fractions (m,) of their ranges.
+
+    ends (e, 2): vertices by their numbers in the mesh, vertices (e, 2): rows of corners (v, 3). fewest (e,): segments, which sag by chord (e,) at most, infinite for nothing, unless they are no longer than shortest (e,).
+    """

@@ -14,12 +14,16 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from surfmesh._core.edges import cut_to_metric_length, graded_over_faces
+from surfmesh._core.edges import (
+    cut_to_metric_length,
+    graded_over_faces,
+    lowered_to_mates,
+    mated_cuts,
+)
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_gradation import graded_by_direction
-from surfmesh.meshing.edges.edge_mates import MatedCuts, lower_to_mates
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -107,7 +111,7 @@ def cut_edges(
             target_size[along] = np.minimum(target_size[along], found)
     size, graded = graded_with_mates(model, samples, target_size, sizing)
     fewest = _fewest(model, samples)
-    mated = MatedCuts(model, samples, size, fewest).cut()
+    mated = _mated(model, samples, size, fewest, sizing.limit)
     cuts = _cut(model, samples, size, fewest, mated, sizing.limit)
     for row in np.flatnonzero(samples.hidden[cuts.edges]).tolist():  # but they hear of them
         own, at = samples.of(cuts.edges[row]), slice(cuts.first[row], cuts.first[row + 1])
@@ -127,12 +131,12 @@ def graded_with_mates(
     """
     grade = _graded_by_direction if samples.is_anisotropic else _graded
     if samples.mates:
-        target_size = target_size.copy()
-        lower_to_mates(samples, samples.mates, target_size)
+        target_size = lowered_to_mates(samples.mates, samples.t, samples.first, target_size)
     for turns_left in reversed(range(1 if samples.is_anisotropic else MATED_TURNS)):
         graded = grade(model, samples, target_size, sizing)
         size = np.where(samples.is_hidden, target_size, graded)
-        lower_to_mates(samples, samples.mates, size)
+        if samples.mates:
+            size = lowered_to_mates(samples.mates, samples.t, samples.first, size)
         if not turns_left or (size >= LEAST_CHANGE * graded).all():
             break
         target_size = np.minimum(target_size, size)
@@ -179,6 +183,26 @@ def _fewest(model: CadModel, samples: EdgeSamples) -> np.ndarray:
     return np.maximum(fewest, np.where(start == end, CLOSED_SEGMENTS, 1))
 
 
+def _mated(
+    model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: np.ndarray, limit: int
+) -> dict[int, np.ndarray]:
+    """The nodes of edges with mates, found together: fractions (k,) by edge, from 0 to 1."""
+    if not samples.mates:
+        return {}
+    arrays = model_arrays(model)
+    edges, first, t = mated_cuts(
+        samples.mates, arrays.curves, samples.points, samples.t, samples.first, arrays.mesh_ends,
+        arrays.ends, arrays.corners, arrays.length, samples.total_curvature, fewest,
+        _chords(samples), samples.shortest, sizes, model.diagonal, limit,
+    )  # fmt: skip
+    return {edge: t[a:b] for edge, (a, b) in zip(edges.tolist(), pairwise(first.tolist()))}
+
+
+def _chords(samples: EdgeSamples) -> np.ndarray:
+    """What segments of each edge (e,) may sag by at most, infinite where they are not cut for it."""
+    return np.where(samples.tiny, np.inf, samples.chord)
+
+
 class _Cuts(NamedTuple):
     """The nodes of some edges in one row, as ``EdgeNodes`` has them."""
 
@@ -201,7 +225,7 @@ def _cut(
     first, t, points, found, refused, pieces = cut_to_metric_length(
         arrays.curves, samples.points, samples.t, sizes, samples.first, arrays.mesh_ends,
         arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]),
-        np.where(samples.tiny, np.inf, samples.chord)[edges], samples.shortest[edges], limit,
+        _chords(samples)[edges], samples.shortest[edges], limit,
     )  # fmt: skip
     if refused >= 0:
         number = int(edges[refused])

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from surfmesh._core.edges import MateRuns
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.model_arrays import offsets
 
@@ -22,20 +23,6 @@ class NarrowFace:
     closed: bool = False
     width: float = 0.0
     """Largest way across, model units."""
-
-
-@dataclass(frozen=True)
-class MateRun:
-    """A part of an edge and its feet on another one, at samples.
-
-    t (n,) rising, foot (n,): normalised parameters of both edges; gap (n,): distance.
-    """
-
-    edge: int
-    mate: int
-    t: np.ndarray
-    foot: np.ndarray
-    gap: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -72,7 +59,7 @@ class EdgeSamples:
     """(e,) bool: only narrow faces use the edge: its sizes are nobody else's."""
     tiny: np.ndarray
     """(e,) bool: the edge is no longer than the way round a narrow tube."""
-    mates: list[MateRun]
+    mates: MateRuns
     """Parts of edges that lie within a narrow width of another edge of the same face."""
     gap_size: np.ndarray
     """(n,) what the distance to other edges of a face asks for; infinite for nothing."""

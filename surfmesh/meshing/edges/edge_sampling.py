@@ -7,20 +7,17 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
 from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets
-from surfmesh.meshing.edges.edge_mates import mate_runs
+from surfmesh.meshing.edges.edge_mates import NO_RUNS, mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
-from surfmesh.meshing.edges.narrow_faces import (
-    ROUND,
-    may_be_narrow,
-    narrow_face,
-    narrow_width,
-)
+from surfmesh.meshing.edges.narrow_faces import ROUND, narrow_faces, narrow_width
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
@@ -73,10 +70,11 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         {},
         np.zeros(len(model.edges), bool),
         np.zeros(len(model.edges), bool),
-        [],
+        NO_RUNS,
         np.full(int(first[-1]), np.inf),
     )
     _find_narrow(samples, rules)
+    samples = replace(samples, mates=mate_runs(model, samples))
     _apply_vertices(samples, rules)
     _apply_gaps(model, samples, sizing)
     return samples
@@ -110,11 +108,7 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
         for number in numbers.tolist():
             points = samples.points[samples.along(number)]
             samples.narrow_width[number] = narrow_width(own, model.diagonal, points)
-    for number in may_be_narrow(arrays, samples.narrow_width).tolist():
-        width = float(samples.narrow_width[number])
-        found = narrow_face(model, model.faces[number], samples, width)
-        if found is not None:
-            samples.narrow[number] = found
+    samples.narrow.update(narrow_faces(model, samples))
     beside = {c.edge for number in samples.narrow for c in model.faces[number].coedges}
     for edge in sorted(beside):
         at, faces = samples.of(edge), rules.faces_of(edge)
@@ -131,7 +125,6 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
             courses = Courses.of(arrays, np.array([edge]), limits, samples.t[at])
             size = rules.target_size(courses, samples.narrow)
         samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
-    samples.mates.extend(mate_runs(model, samples))
 
 
 def _has_twin(arrays: ModelArrays, total_curvature: np.ndarray) -> np.ndarray:

@@ -31,8 +31,8 @@ def opposite_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int
     if not samples.mates:
         return []
     mates: dict[int, set[int]] = {}
-    for run in samples.mates:
-        mates.setdefault(run.edge, set()).add(run.mate)
+    for edge, mate in zip(samples.mates.edge.tolist(), samples.mates.mate.tolist()):
+        mates.setdefault(edge, set()).add(mate)
     found: dict[int, tuple[int, float]] = {}
     edges = [set(own.tolist()) for own in samples.edges_of_face]
     seams = [{c.edge for c in face.coedges if c.seam} for face in model.faces]

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import surfmesh as sm
+from surfmesh._core.edges import MateRuns
 from surfmesh._core.space import edge_gaps
 from surfmesh.meshing.edges.edge_nodes import cut_edges, graded_with_mates
-from surfmesh.meshing.edges.edge_samples import MateRun
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.sizing.options.model_sizing import model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -150,8 +150,9 @@ def test_sizes_lowered_to_those_of_a_mate_grow_from_there():
     ends = [{edge.start, edge.end} for edge in model.edges]
     mate = next(k for k in range(1, 12) if not ends[k] & ends[0])
     half = samples.t[samples.of(0)][:17]
-    run = MateRun(0, mate, half, half, np.full(17, 0.1))
-    samples = replace(samples, mates=[run])
+    one = np.zeros(1, np.int64)
+    runs = MateRuns(one, one + mate, np.array([0, 17]), half, half, np.full(17, 0.1))
+    samples = replace(samples, mates=runs)
     samples.target_size[samples.of(mate)] = 0.5
     sizes, graded = graded_with_mates(model, samples, samples.target_size, wanted.base)
     own = samples.of(0)

@@ -176,9 +176,10 @@ def test_two_sides_are_cut_with_mates():
     samples = sample_edges(model, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
     assert len(samples.narrow) == 1 and samples.mates
-    for run in samples.mates:
-        own, other = nodes[run.edge], nodes[run.mate]
-        inside = (own.t >= run.t[0]) & (own.t <= run.t[-1])
+    runs = samples.mates
+    for edge, mate, first, end in zip(runs.edge, runs.mate, runs.first[:-1], runs.first[1:]):
+        own, other = nodes[edge], nodes[mate]
+        inside = (own.t >= runs.t[first]) & (own.t <= runs.t[end - 1])
         away = np.linalg.norm(own.points[inside, None] - other.points, axis=2).min(axis=1)
         assert away.max() < 0.0011
 
