@@ -11,62 +11,12 @@ constexpr double TIE = 1e-6;   // relative difference of squared distances that 
 constexpr int FOOT_STEPS = 4;  // of Newton's method, to the closest point of a curve
 constexpr double LEAST = std::numeric_limits<double>::min();  // of a squared length
 
-/// The closest segments of a chain to points, and how far along these, 0 to 1, the points are.
-class PolygonFeet {
-  public:
-    explicit PolygonFeet(const EdgeChain& chain)
-        : chain_(chain),
-          way_(chain.segments()),
-          square_(chain.segments()),
-          ratio_(way_.size()),
-          near_(way_.size()) {
-        for (std::size_t i = 0; i < chain.segments(); ++i) {
-            way_.data()[i] = chain.points.data()[i + 1] - chain.points.data()[i];
-            square_.data()[i] = std::max(dot(way_.data()[i], way_.data()[i]), LEAST);
-        }
-        longest_ = *std::max_element(square_.begin(), square_.end());
-    }
-
-    /// about: where on the chain, 0 to 1, the closest of several segments is to be.
-    std::size_t closest(Point3 p, double about, double& along) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < way_.size(); ++i) {
-            const Point3 way = way_.data()[i], off = p - chain_.points.data()[i];
-            const double t = std::clamp(dot(off, way) / square_.data()[i], 0.0, 1.0);
-            const Point3 rest = off - t * way;
-            ratio_.data()[i] = t;
-            near_.data()[i] = dot(rest, rest);
-            least = std::min(least, near_.data()[i]);
-        }
-        const double most = least * (1.0 + TIE) + TIE * TIE * longest_;
-        std::size_t found = 0;
-        double apart = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < way_.size(); ++i) {
-            if (!(near_.data()[i] <= most)) continue;
-            const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(way_.size());
-            const double away = std::abs(middle - about);
-            if (away < apart) {
-                apart = away;
-                found = i;
-            }
-        }
-        along = ratio_.data()[found];
-        return found;
-    }
-
-  private:
-    const EdgeChain& chain_;
-    Array<Point3> way_;
-    Array<double> square_, ratio_, near_;
-    double longest_;
-};
-
 }  // namespace
 
-EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which,
-                   std::int64_t place) {
+EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which) {
     EdgeChain chain;
     Point3 last{};
+    std::int64_t place = 0;
     for (const auto [edge, is_reversed] : which) {
         const std::size_t count = edges.count(edge);
         const auto points = edges.of(edges.points, edge);
@@ -78,33 +28,79 @@ EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> whic
             chain.edge.push_back(edge);
             chain.t.push_back(t[at(i)]);
             chain.t_end.push_back(t[at(i + 1)]);
+            const Point3 way = points[at(i + 1)] - points[at(i)];
+            chain.way.push_back(way);
+            chain.square.push_back(std::max(dot(way, way), LEAST));
         }
         if (count > 0) last = points[at(count - 1)];
         ++place;
     }
-    if (!chain.points.empty()) chain.points.push_back(last);
+    if (chain.points.empty()) return chain;
+    chain.points.push_back(last);
     return chain;
 }
 
-void feet_on_chain(const CurvePieces& curves, std::span<const Point3> points,
-                   const EdgeChain& chain, ChainFeet& found) {
+FootFinder::FootFinder(const CurvePieces& curves, const ChainPart& part)
+    : curves_(curves),
+      part_(part),
+      ratio_(part.segments()),
+      near_(part.segments()),
+      longest_(*std::max_element(part.chain.square.begin() + part.first,
+                                 part.chain.square.begin() + part.last)) {}
+
+/// The place on the polygon of the samples that is closest to a point.
+FootFinder::Place FootFinder::on_polygon(Point3 p, double about) {
+    const EdgeChain& chain = part_.chain;
+    const std::size_t count = part_.segments();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t k = part_.first + i;
+        const Point3 way = chain.way.data()[k], off = p - chain.points.data()[k];
+        const double t = std::clamp(dot(off, way) / chain.square.data()[k], 0.0, 1.0);
+        const Point3 rest = off - t * way;
+        ratio_.data()[i] = t;
+        near_.data()[i] = dot(rest, rest);
+        least = std::min(least, near_.data()[i]);
+    }
+    const double most = least * (1.0 + TIE) + TIE * TIE * longest_;
+    std::size_t found = 0;
+    double apart = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(near_.data()[i] <= most)) continue;
+        const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+        const double away = std::abs(middle - about);
+        if (away < apart) {
+            apart = away;
+            found = i;
+        }
+    }
+    const double along = ratio_.data()[found];
+    const std::size_t k = part_.first + found;
+    return {static_cast<std::int64_t>(k),
+            (1.0 - along) * chain.t.data()[k] + along * chain.t_end.data()[k]};
+}
+
+double FootFinder::distance(Point3 p, double about) {
+    Place place = on_polygon(p, about);
+    double found = 0.0;
+    feet_on_edge(curves_, part_.chain.edge[place.segment], {&p, 1}, {&place.t, 1}, {&found, 1});
+    return found;
+}
+
+void FootFinder::feet(std::span<const Point3> points, ChainFeet& found) {
     const std::size_t count = points.size();
-    PolygonFeet polygon(chain);
     found.segment.resize(count);
     found.t.resize(count);
     found.distance.resize(count);
-    const double step = count > 1 ? -1.0 / static_cast<double>(count - 1) : 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-        const double about = i > 0 && i + 1 == count ? 0.0 : static_cast<double>(i) * step + 1.0;
-        double along = 0.0;
-        const std::size_t k = polygon.closest(points[i], about, along);
-        found.segment.data()[i] = static_cast<std::int64_t>(k);
-        found.t.data()[i] = (1.0 - along) * chain.t.data()[k] + along * chain.t_end.data()[k];
+        const Place place = on_polygon(points[i], place_along(i, count));
+        found.segment.data()[i] = place.segment;
+        found.t.data()[i] = place.t;
     }
-    const auto edge_of = [&](std::size_t i) { return chain.edge[found.segment.data()[i]]; };
+    const auto edge_of = [&](std::size_t i) { return part_.chain.edge[found.segment.data()[i]]; };
     for (std::size_t from = 0, to = 0; from < count; from = to) {  // points of the same edge
         while (to < count && edge_of(to) == edge_of(from)) ++to;
-        feet_on_edge(curves, edge_of(from), points.subspan(from, to - from),
+        feet_on_edge(curves_, edge_of(from), points.subspan(from, to - from),
                      {found.t.data() + from, to - from}, {found.distance.data() + from, to - from});
     }
 }

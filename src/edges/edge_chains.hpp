@@ -53,23 +53,60 @@ struct EdgeChain {
     Array<Point3> points;
     Array<std::int64_t> place, edge;  // of the segments: which of the chain's edges, and its number
     Array<double> t, t_end;           // of the segments: where they start and end on that edge
+    Array<Point3> way;                // of the segments, from end to end
+    Array<double> square;             // of their lengths
 
     [[nodiscard]] std::size_t segments() const { return edge.size(); }
 };
 
-/// The chain of some edges; empty where none of them has samples. place: of the first one.
-EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which,
-                   std::int64_t place = 0);
+/// The chain of some edges; empty where none of them has samples.
+EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which);
+
+/// Segments of a chain that follow each other, from ``first`` to before ``last``.
+struct ChainPart {
+    const EdgeChain& chain;
+    std::size_t first, last;
+
+    [[nodiscard]] std::size_t segments() const { return last - first; }
+    [[nodiscard]] std::span<const Point3> points() const {
+        return {chain.points.data() + first, segments() + 1};
+    }
+};
 
 /// The closest points of a chain.
 struct ChainFeet {
-    Array<std::int64_t> segment;
-    Array<double> t, distance;  // t: on the segment's edge
+    Array<std::int64_t> segment;  // of the whole chain
+    Array<double> t, distance;    // t: on the segment's edge
 };
 
-/// Of points to a chain with segments.
-void feet_on_chain(const CurvePieces& curves, std::span<const Point3> points,
-                   const EdgeChain& chain, ChainFeet& found);
+/// Finds the closest points of a part of a chain, which has segments.
+class FootFinder {
+  public:
+    FootFinder(const CurvePieces& curves, const ChainPart& part);
+
+    void feet(std::span<const Point3> points, ChainFeet& found);
+    /// How far a point is from its foot. about: where on the part, 0 to 1, that is to be.
+    double distance(Point3 p, double about);
+
+  private:
+    struct Place {
+        std::int64_t segment;
+        double t;
+    };
+    Place on_polygon(Point3 p, double about);
+
+    const CurvePieces& curves_;
+    ChainPart part_;
+    Array<double> ratio_, near_;
+    double longest_;
+};
+
+/// Where point i of so many that run along a chain the other way is to have its foot, 0 to 1.
+inline double place_along(std::size_t i, std::size_t count) {
+    if (count == 1) return 1.0;
+    if (i + 1 == count) return 0.0;
+    return static_cast<double>(i) * (-1.0 / static_cast<double>(count - 1)) + 1.0;
+}
 
 /// The closest points of one edge, by Newton's method. t: guesses that are made better.
 void feet_on_edge(const CurvePieces& curves, std::int64_t edge, std::span<const Point3> points,

@@ -16,13 +16,17 @@ class RunSearch {
   public:
     RunSearch(const CurvePieces& curves, const EdgeChain& other, double width, std::size_t fewest,
               MateRuns& found)
-        : curves_(curves), other_(other), width_(width), fewest_(fewest), found_(found) {}
+        : other_(other),
+          on_other_(curves, {other, 0, other.segments()}),
+          width_(width),
+          fewest_(fewest),
+          found_(found) {}
 
     /// Of one edge of a chain, the segments from ``from`` to ``to``.
     void add(const EdgeChain& own, std::size_t from, std::size_t to) {
         const std::int64_t edge = own.edge.data()[from];
         const std::size_t count = to - from + 1;
-        feet_on_chain(curves_, {own.points.data() + from, count}, other_, feet_);
+        on_other_.feet({own.points.data() + from, count}, feet_);
         t_.clear();
         mate_.clear();
         is_near_.clear();
@@ -56,8 +60,8 @@ class RunSearch {
         found_.first.push_back(static_cast<std::int64_t>(found_.t.size()));
     }
 
-    const CurvePieces& curves_;
     const EdgeChain& other_;
+    FootFinder on_other_;
     double width_;
     std::size_t fewest_;
     MateRuns& found_;

@@ -52,13 +52,14 @@ class NarrowSearch {
         if (uses_.empty() || uses_.size() > MOST_COEDGES || !(width_ > 0.0)) return none;
         if (2.0 * area_ > ROUND_A_TUBE * width_ * around_ || area_ <= EMPTY * diagonal_ * around_)
             return none;
+        if (loops_ != 1 && loops_ != 2) return none;
+        chain_loops();
         if (loops_ == 2) {
             const auto one = static_cast<std::int64_t>(first_loop_);
             const auto count = static_cast<std::int64_t>(uses_.size());
             NarrowFace ring{{{{0, one}, {one, count - one}}}, {}, true};
             return is_narrow(ring) ? ring : none;
         }
-        if (loops_ != 1) return none;
         for (NarrowFace& candidate : candidates())
             if (is_narrow(candidate)) return candidate;
         return none;
@@ -105,7 +106,6 @@ class NarrowSearch {
     /// Ways to take the loop apart in two sides and two ends, the longest ends first.
     std::vector<NarrowFace> candidates() const {
         const auto count = static_cast<std::int64_t>(uses_.size());
-        const auto within = [&](std::int64_t place) { return (place % count + count) % count; };
         struct Ranked {
             std::tuple<double, std::int64_t, double> order;
             NarrowFace face;
@@ -115,14 +115,13 @@ class NarrowSearch {
         for (std::size_t i = 0; i < all.size(); ++i)
             for (std::size_t k = i + 1; k < all.size(); ++k) {
                 const CoedgeRun one = all[i].run, other = all[k].run;
-                const std::int64_t first = within(other.start - one.start - one.count);
-                const std::int64_t second = within(one.start - other.start - other.count);
-                if (first < 1 || second < 1 || first + second + one.count + other.count != count)
-                    continue;
+                const std::int64_t first = other.start - one.start - one.count;
+                const std::int64_t second = count - (other.start - one.start) - other.count;
+                if (first < 1 || second < 1) continue;
                 const double of_ends = all[i].length + all[k].length;
                 if (of_ends > OF_LOOP * around_) continue;
-                const CoedgeRun a{within(one.start + one.count), first};
-                const CoedgeRun b{within(other.start + other.count), second};
+                const CoedgeRun a{(one.start + one.count) % count, first};
+                const CoedgeRun b{(other.start + other.count) % count, second};
                 const double own = length_of(a), opposite = length_of(b);
                 if (!(std::min(own, opposite) > 0.0) ||
                     std::abs(own - opposite) >
@@ -140,24 +139,45 @@ class NarrowSearch {
         return best;
     }
 
-    EdgeChain side(CoedgeRun run) const {
-        EdgeChain chain;
-        std::vector<DirectedEdge> which;
-        for (std::int64_t k = 0; k < run.count; ++k)
-            which.push_back(uses_[static_cast<std::size_t>(run.start + k) % uses_.size()]);
-        return chain_of(edges_, which, run.start);
+    ChainPart side(CoedgeRun run) const {
+        const auto place = static_cast<std::size_t>(run.start);
+        const std::size_t first = place < first_loop_ ? place : place + first_loop_;
+        return {chain_, first_segment_[first],
+                first_segment_[first + static_cast<std::size_t>(run.count)]};
+    }
+
+    /// Each loop twice over, so that every side is a part of it.
+    void chain_loops() {
+        std::vector<DirectedEdge> twice;
+        for (const auto [from, to] :
+             {std::pair(std::size_t{0}, first_loop_), std::pair(first_loop_, uses_.size())})
+            for (int time = 0; time < 2; ++time)
+                for (std::size_t k = from; k < to; ++k) {
+                    twice.push_back(uses_[k]);
+                    coedge_of_.push_back(coedge_ + k);
+                }
+        chain_ = chain_of(edges_, twice);
+        for (std::size_t k = 0; k <= twice.size(); ++k)
+            first_segment_.push_back(
+                static_cast<std::size_t>(std::lower_bound(chain_.place.begin(), chain_.place.end(),
+                                                          static_cast<std::int64_t>(k)) -
+                                         chain_.place.begin()));
     }
 
     /// Are the sides nowhere farther apart than the width? Fills in the largest way across.
     bool is_narrow(NarrowFace& face) {
-        const EdgeChain first = side(face.sides[0]), second = side(face.sides[1]);
+        const ChainPart first = side(face.sides[0]), second = side(face.sides[1]);
         if (first.segments() == 0 || second.segments() == 0) return false;
-        if (!is_near_in_few(first, second) || !is_near_in_few(second, first)) return false;
+        FootFinder on_first(edges_.curves, first), on_second(edges_.curves, second);
+        if (!is_near_in_few(first, on_second) || !is_near_in_few(second, on_first)) return false;
         double largest = 0.0;
-        for (const auto& [own, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
-            feet_on_chain(edges_.curves, {own->points.data(), own->points.size()}, *other, feet_);
-            if (!is_near(feet_)) return false;
-            const double way = longest_way_across(*own, *other);
+        for (const bool is_first : {true, false}) {
+            const ChainPart& own = is_first ? first : second;
+            (is_first ? on_second : on_first).feet(own.points(), feet_);
+            if (!std::all_of(feet_.distance.begin(), feet_.distance.end(),
+                             [&](double away) { return away <= width_; }))
+                return false;
+            const double way = longest_way_across(own);
             if (!(way <= ROUND_A_TUBE * width_)) return false;
             largest = std::max(largest, way);
         }
@@ -165,28 +185,23 @@ class NarrowSearch {
         return true;
     }
 
-    bool is_near(const ChainFeet& feet) const {
-        return std::all_of(feet.distance.begin(), feet.distance.end(),
-                           [&](double away) { return away <= width_; });
-    }
-
-    /// A few points tell most sides that are too far apart.
-    bool is_near_in_few(const EdgeChain& own, const EdgeChain& other) {
-        const std::size_t last = own.points.size() - 1, few = std::min(FEW, last + 1);
-        Array<Point3> points;
+    /// A few points, from the middle on, tell most sides that are too far apart.
+    bool is_near_in_few(const ChainPart& own, FootFinder& on_other) const {
+        const std::size_t last = own.segments(), few = std::min(FEW, last + 1);
         const double step = static_cast<double>(last) / static_cast<double>(few - 1);
-        for (std::size_t i = 0; i < few; ++i) {
-            const auto at = static_cast<std::size_t>(static_cast<double>(i) * step);
-            points.push_back(own.points.data()[i + 1 == few ? last : at]);
+        for (std::size_t k = 0; k < few; ++k) {
+            const std::size_t i = (few / 2 + k) % few;
+            const auto at =
+                i + 1 == few ? last : static_cast<std::size_t>(static_cast<double>(i) * step);
+            if (!(on_other.distance(own.points()[at], place_along(i, few)) <= width_)) return false;
         }
-        feet_on_chain(edges_.curves, {points.data(), few}, other, feet_);
-        return is_near(feet_);
+        return true;
     }
 
-    /// Parameters (u, v) of a place on a coedge; place: round the row of coedges.
-    Point2 uv_of(std::int64_t place, double t) const {
-        const auto c =
-            static_cast<std::int64_t>(coedge_ + static_cast<std::size_t>(place) % uses_.size());
+    /// Parameters (u, v) of a place on the coedge of a segment.
+    Point2 uv_of(std::size_t segment, double t) const {
+        const auto c = static_cast<std::int64_t>(
+            coedge_of_[static_cast<std::size_t>(chain_.place.data()[segment])]);
         const CurvePieces& pieces = asked_.pcurves;
         const double parameter = pieces.t0[c] + t * (pieces.t1[c] - pieces.t0[c]);
         Point3 found{};
@@ -195,13 +210,14 @@ class NarrowSearch {
     }
 
     /// The longest way in space, straight in (u, v), from a sample of one side to its foot.
-    double longest_way_across(const EdgeChain& own, const EdgeChain& other) {
+    double longest_way_across(const ChainPart& own) {
         const std::size_t count = own.segments();
         uv_.resize(ACROSS * count);
         const double step = 1.0 / static_cast<double>(ACROSS - 1);
         for (std::size_t i = 0; i < count; ++i) {
-            const Point2 here = uv_of(own.place.data()[i], own.t.data()[i]);
-            const Point2 there = uv_of(other.place[feet_.segment.data()[i]], feet_.t.data()[i]);
+            const Point2 here = uv_of(own.first + i, chain_.t.data()[own.first + i]);
+            const Point2 there =
+                uv_of(static_cast<std::size_t>(feet_.segment.data()[i]), feet_.t.data()[i]);
             for (std::size_t k = 0; k < ACROSS; ++k) {
                 const double t = k + 1 == ACROSS ? 1.0 : static_cast<double>(k) * step;
                 uv_.data()[k * count + i] = (1.0 - t) * here + t * there;
@@ -226,9 +242,12 @@ class NarrowSearch {
     const NarrowRequest& asked_;
     const Surface& surface_;
     double width_, around_ = 0.0, area_ = 0.0, diagonal_ = 0.0;
-    std::size_t coedge_ = 0, loops_ = 0, first_loop_ = 0;  // the face's first coedge in the model
+    std::size_t coedge_ = 0;                  // the face's first one in the model
+    std::size_t loops_ = 0, first_loop_ = 0;  // first_loop_: coedges of the first of two, or 0
     std::vector<DirectedEdge> uses_;
     Array<double> length_;  // of the coedges
+    EdgeChain chain_;       // of all coedges, loop by loop, each loop twice over
+    std::vector<std::size_t> coedge_of_, first_segment_;  // of the places of the chain
     ChainFeet feet_;
     Array<Point2> uv_;
 };
