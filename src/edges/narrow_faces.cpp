@@ -149,7 +149,7 @@ class NarrowSearch {
     /// Each loop twice over, so that every side is a part of it.
     void chain_loops() {
         std::vector<DirectedEdge> twice;
-        for (const auto [from, to] :
+        for (const auto& [from, to] :
              {std::pair(std::size_t{0}, first_loop_), std::pair(first_loop_, uses_.size())})
             for (int time = 0; time < 2; ++time)
                 for (std::size_t k = from; k < to; ++k) {
