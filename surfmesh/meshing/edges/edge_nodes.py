@@ -131,6 +131,8 @@ def graded_with_mates(
         lower_to_mates(samples, samples.mates, target_size)
     for turns_left in reversed(range(1 if samples.is_anisotropic else MATED_TURNS)):
         graded = grade(model, samples, target_size, sizing)
+        if not samples.mates and not samples.hidden.any():
+            return graded, graded
         size = np.where(samples.is_hidden, target_size, graded)
         lower_to_mates(samples, samples.mates, size)
         if not turns_left or (size >= LEAST_CHANGE * graded).all():
