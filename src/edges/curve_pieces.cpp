@@ -14,7 +14,7 @@ void parameters_of(const CurvePieces& pieces, const PiecePlaces& places, std::si
 }
 
 Array<Point3> points_on(const CurvePieces& pieces, const PiecePlaces& places) {
-    Array<Point3> found(places.fraction.size());
+    auto found = Array<Point3>::unfilled(places.fraction.size());
     for_each_block(places.which.size(), PIECES_AT_ONCE, [&](std::size_t from, std::size_t to) {
         Array<double> t;
         for (std::size_t i = from; i < to; ++i) {

@@ -42,8 +42,8 @@ void follow_line(const Curve& curve, std::span<const double> t, std::span<Point3
 EdgeCourses edge_courses(const CurvePieces& pieces, const PiecePlaces& places,
                          std::span<const std::uint8_t> straight) {
     const std::size_t total = places.fraction.size();
-    EdgeCourses found{Array<Point3>(total), Array<Point3>(total), Array<double>(total),
-                      Array<double>(places.which.size())};
+    EdgeCourses found{Array<Point3>::unfilled(total), Array<Point3>::unfilled(total),
+                      Array<double>::unfilled(total), Array<double>(places.which.size())};
     for_each_block(places.which.size(), PIECES_AT_ONCE, [&](std::size_t from, std::size_t to) {
         Array<double> t;
         Array<Point3> values;
@@ -55,6 +55,7 @@ EdgeCourses edge_courses(const CurvePieces& pieces, const PiecePlaces& places,
             const std::span<Point3> tangents(found.tangents.data() + start, count);
             if (straight[i]) {
                 follow_line(curve, {t.data(), count}, points, tangents);
+                std::fill_n(found.curvature.data() + start, count, 0.0);
                 continue;
             }
             values.resize(3 * count);

@@ -1,11 +1,10 @@
 #include "edges/gradation_over_faces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "edges/sample_ranges.hpp"
 #include "values/threads.hpp"
 
 namespace surfmesh {
@@ -15,75 +14,7 @@ constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at to
 constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
-constexpr std::size_t THINNED_TOGETHER = 256;
-constexpr double INFINITE_SIZE = std::numeric_limits<double>::infinity();
-
-/// A bounding box.
-struct SampleBox {
-    Point3 low{INFINITE_SIZE, INFINITE_SIZE, INFINITE_SIZE};
-    Point3 high{-INFINITE_SIZE, -INFINITE_SIZE, -INFINITE_SIZE};
-
-    void add(Point3 p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-};
-
-/// Square of the distance between two boxes.
-double squared_way(const SampleBox& a, const SampleBox& b) {
-    const auto apart = [](double low_a, double high_a, double low_b, double high_b) {
-        return std::max(std::max(low_a - high_b, low_b - high_a), 0.0);
-    };
-    const Point3 way{apart(a.low.x, a.high.x, b.low.x, b.high.x),
-                     apart(a.low.y, a.high.y, b.low.y, b.high.y),
-                     apart(a.low.z, a.high.z, b.low.z, b.high.z)};
-    return dot(way, way);
-}
-
-/// Samples next to each other: where they are, and the range of their sizes.
-struct SampleRange {
-    SampleBox box;
-    double smallest = INFINITE_SIZE, largest = 0.0;
-
-    void add(double size) {
-        smallest = std::min(smallest, size);
-        largest = std::max(largest, size);
-    }
-};
-
-/// Boxes in rows of numbers, so that several are looked at together.
-class SampleBoxes {
-  public:
-    [[nodiscard]] bool empty() const { return rows_[0].empty(); }
-    void clear() {
-        for (Array<double>& row : rows_) row.clear();
-    }
-    void add(const SampleBox& box) {
-        const double values[] = {box.low.x,  box.low.y,  box.low.z,
-                                 box.high.x, box.high.y, box.high.z};
-        for (std::size_t k = 0; k < 6; ++k) rows_[k].push_back(values[k]);
-    }
-
-    /// ``squared_way`` of each to one box.
-    const Array<double>& squared_ways(const SampleBox& to) {
-        const std::size_t count = rows_[0].size();
-        ways_.resize(count);
-        const double *lx = rows_[0].data(), *ly = rows_[1].data(), *lz = rows_[2].data();
-        const double *hx = rows_[3].data(), *hy = rows_[4].data(), *hz = rows_[5].data();
-        double* way = ways_.data();
-        for (std::size_t i = 0; i < count; ++i) {
-            const double x = std::max(std::max(to.low.x - hx[i], lx[i] - to.high.x), 0.0);
-            const double y = std::max(std::max(to.low.y - hy[i], ly[i] - to.high.y), 0.0);
-            const double z = std::max(std::max(to.low.z - hz[i], lz[i] - to.high.z), 0.0);
-            way[i] = x * x + y * y + z * z;
-        }
-        return ways_;
-    }
-
-  private:
-    std::array<Array<double>, 6> rows_;
-    Array<double> ways_;
-};
+constexpr std::size_t EDGES_A_BLOCK = 256, FACES_A_BLOCK = 64;
 
 /// Some of the samples of each edge, its ends among them.
 ///
@@ -95,20 +26,18 @@ struct ThinnedEdges {
 
     ThinnedEdges(const EdgeNetwork& edges, const Array<double>& all) {
         Array<std::int64_t> steps(edges.ends.size());
-        for_each_block(steps.size(), THINNED_TOGETHER, [&](std::size_t from, std::size_t to) {
+        for_each_block(steps.size(), EDGES_A_BLOCK, [&](std::size_t from, std::size_t to) {
             for (std::size_t e = from; e < to; ++e)
                 steps.data()[e] = stride(edges, all, edges.first[e], edges.first[e + 1]);
         });
-        row.reserve(all.size());
-        points.reserve(all.size());
-        sizes.reserve(all.size());
-        first.push_back(0);
-        for (std::size_t e = 0; e < edges.ends.size(); ++e) {
-            const std::int64_t begin = edges.first[e], end = edges.first[e + 1];
-            for (std::int64_t i = begin; i < end; i += steps.data()[e]) add(edges, all, i);
-            if (begin < end && row[row.size() - 1] != end - 1) add(edges, all, end - 1);
-            first.push_back(static_cast<std::int64_t>(row.size()));
-        }
+        count_kept(edges, steps);
+        const auto kept = static_cast<std::size_t>(first.back());
+        row = Array<std::int64_t>::unfilled(kept);
+        points = Array<Point3>::unfilled(kept);
+        sizes = Array<double>::unfilled(kept);
+        for_each_block(steps.size(), EDGES_A_BLOCK, [&](std::size_t from, std::size_t to) {
+            for (std::size_t e = from; e < to; ++e) put(edges, all, e, steps.data()[e]);
+        });
     }
 
     /// Lower sizes of all samples to those between the thinned ones.
@@ -125,10 +54,23 @@ struct ThinnedEdges {
     }
 
   private:
-    void add(const EdgeNetwork& edges, const Array<double>& all, std::int64_t i) {
-        row.push_back(i);
-        points.push_back(edges.points[i]);
-        sizes.push_back(all[i]);
+    /// Where the samples that are kept of each edge begin.
+    void count_kept(const EdgeNetwork& edges, const Array<std::int64_t>& steps) {
+        first = Array<std::int64_t>(steps.size() + 1, 0);
+        for (std::size_t e = 0; e < steps.size(); ++e) {
+            const std::int64_t last = edges.first[e + 1] - edges.first[e] - 1, step = steps[e];
+            first[e + 1] = first[e] + (last < 0 ? 0 : 1 + (last + step - 1) / step);
+        }
+    }
+
+    void put(const EdgeNetwork& edges, const Array<double>& all, std::size_t e, std::int64_t step) {
+        const std::int64_t last = edges.first[e + 1] - 1;
+        for (std::int64_t k = first[e], i = edges.first[e]; k < first[e + 1]; ++k, i += step) {
+            const std::int64_t from = std::min(i, last);
+            row[k] = from;
+            points[k] = edges.points[from];
+            sizes[k] = all[from];
+        }
     }
 
     /// How many steps from sample to sample are no longer than a fraction of any size there.
@@ -158,12 +100,13 @@ class GradationOverFaces {
         sizes_ = Array<double>(asked);
         const std::size_t count = edges_.ends.size();
         lowered_.resize(count, 1);
-        first_block_.push_back(0);
-        for (std::size_t e = 0; e < count; ++e) {
-            ranges_.push_back(range(samples(e)));
-            for (std::size_t k = 0; k < blocks(e); ++k) blocks_.push_back(range(block(e, k)));
-            first_block_.push_back(blocks_.size());
-        }
+        ranges_.resize(count);
+        first_block_.resize(count + 1, 0);
+        for (std::size_t e = 0; e < count; ++e) first_block_[e + 1] = first_block_[e] + blocks(e);
+        blocks_.resize(first_block_[count]);
+        for_each_block(count, EDGES_A_BLOCK, [&](std::size_t from, std::size_t to) {
+            for (std::size_t e = from; e < to; ++e) find_ranges(e);
+        });
         for (int round = 1; cross_faces(round); ++round) {
             const Array<double> before = sizes_;
             sizes_ = along_.graded({before.data(), before.size()});
@@ -205,53 +148,93 @@ class GradationOverFaces {
         return found;
     }
 
+    void find_ranges(std::size_t e) {
+        for (std::size_t k = 0; k < blocks(e); ++k)
+            blocks_[first_block_[e] + k] = range(block(e, k));
+        ranges_[e] = blocks(e) == 0 ? range(samples(e)) : SampleRange{};
+        for (std::size_t k = 0; k < blocks(e); ++k) ranges_[e].add(blocks_[first_block_[e] + k]);
+    }
+
     /// The sizes of an edge were lowered in some round.
     void renew(std::size_t e, int round) {
         lowered_[e] = round;
-        ranges_[e] = range(samples(e));
-        for (std::size_t k = 0; k < blocks(e); ++k)
-            blocks_[first_block_[e] + k] = range(block(e, k));
+        find_ranges(e);
+    }
+
+    [[nodiscard]] std::span<const std::int64_t> edges_of(std::size_t face) const {
+        return faces_.edges.subspan(
+            static_cast<std::size_t>(faces_.first[face]),
+            static_cast<std::size_t>(faces_.first[face + 1] - faces_.first[face]));
     }
 
     /// Let sizes grow across all faces that have an edge lowered in the last round or in this one.
     /// Says whether any size was lowered.
     bool cross_faces(int round) {
+        const Array<std::uint8_t> idle = idle_faces(round);
+        SampleBoxes boxes;
         bool any = false;
-        for (std::size_t f = 0; f + 1 < faces_.first.size(); ++f) {
-            const auto own = faces_.edges.subspan(
-                static_cast<std::size_t>(faces_.first[f]),
-                static_cast<std::size_t>(faces_.first[f + 1] - faces_.first[f]));
-            double coarsest = 0.0;
-            for (const std::int64_t edge : own)
-                coarsest = std::max(coarsest, ranges_[static_cast<std::size_t>(edge)].largest);
-            boxes_.clear();
-            for (const std::int64_t from : own) {
-                if (lowered_[from] < round) continue;
-                const SampleRange& source = ranges_[static_cast<std::size_t>(from)];
-                if (!(source.smallest < coarsest)) continue;
-                any = cross_face(own, from, coarsest - source.smallest, round) || any;
-            }
+        for (std::size_t f = 0; f < idle.size(); ++f) {
+            const auto own = edges_of(f);
+            const auto is_as_before = [&](std::int64_t edge) { return lowered_[edge] <= round; };
+            if (idle.data()[f] && std::all_of(own.begin(), own.end(), is_as_before)) continue;
+            for_pairs(own, round, boxes, [&](std::size_t from, std::size_t to) {
+                bool is_lower = false;
+                grow(from, to, [&](std::size_t i, double size) {
+                    sizes_.data()[i] = size;
+                    return is_lower = true;
+                });
+                if (is_lower) renew(to, round + 1);
+                any = any || is_lower;
+                return true;
+            });
         }
         return any;
     }
 
-    /// The same from one edge of a face to its others, which ask for ``above`` more at most.
-    bool cross_face(std::span<const std::int64_t> own, std::int64_t from, double above, int round) {
-        if (boxes_.empty())
-            for (const std::int64_t edge : own)
-                boxes_.add(ranges_[static_cast<std::size_t>(edge)].box);
-        const Array<double>& ways =
-            boxes_.squared_ways(ranges_[static_cast<std::size_t>(from)].box);
-        bool any = false;
-        for (std::size_t k = 0; k < own.size(); ++k) {
-            if (!(slope_ * slope_ * ways.data()[k] < above * above)) continue;  // see may_lower
-            const std::int64_t to = own[k];
-            if (to == from) continue;  // by itself an edge is graded already
-            if (!grow(static_cast<std::size_t>(from), static_cast<std::size_t>(to))) continue;
-            renew(static_cast<std::size_t>(to), round + 1);
-            any = true;
+    /// Of the faces: would no size be lowered across it as all are now? Threads find that of many
+    /// faces, so that few are left to be crossed in turn; one thread alone crosses all of them.
+    [[nodiscard]] Array<std::uint8_t> idle_faces(int round) const {
+        Array<std::uint8_t> idle(faces_.first.size() - 1, 0);
+        if (allowed_threads() < 2) return idle;
+        for_each_block(idle.size(), FACES_A_BLOCK, [&](std::size_t first, std::size_t last) {
+            SampleBoxes boxes;
+            for (std::size_t f = first; f < last; ++f) {
+                bool is_idle = true;
+                for_pairs(edges_of(f), round, boxes, [&](std::size_t from, std::size_t to) {
+                    grow(from, to, [&](std::size_t, double) { return is_idle = false; });
+                    return is_idle;
+                });
+                idle.data()[f] = is_idle;
+            }
+        });
+        return idle;
+    }
+
+    /// Call visit(from, to) for edges of one face, the first of which was lowered and may lower the
+    /// second, as long as it says yes.
+    template <class Visit>
+    void for_pairs(std::span<const std::int64_t> own, int round, SampleBoxes& boxes,
+                   const Visit& visit) const {
+        double coarsest = 0.0;
+        for (const std::int64_t edge : own)
+            coarsest = std::max(coarsest, ranges_[static_cast<std::size_t>(edge)].largest);
+        boxes.clear();
+        for (const std::int64_t from : own) {
+            if (lowered_[from] < round) continue;
+            const SampleRange& source = ranges_[static_cast<std::size_t>(from)];
+            if (!(source.smallest < coarsest)) continue;
+            if (boxes.empty())
+                for (const std::int64_t edge : own)
+                    boxes.add(ranges_[static_cast<std::size_t>(edge)].box);
+            const double above = coarsest - source.smallest;
+            const Array<double>& ways = boxes.squared_ways(source.box);
+            for (std::size_t k = 0; k < own.size(); ++k) {
+                if (!(slope_ * slope_ * ways.data()[k] < above * above)) continue;  // see may_lower
+                if (own[k] == from) continue;  // by itself an edge is graded already
+                if (!visit(static_cast<std::size_t>(from), static_cast<std::size_t>(own[k])))
+                    return;
+            }
         }
-        return any;
     }
 
     /// May sizes that grow from one range lower those of the other?
@@ -261,24 +244,25 @@ class GradationOverFaces {
                slope_ * slope_ * squared_way(from.box, to.box) < above * above;
     }
 
-    /// Lower the sizes of one edge to what grows from another one. Says whether any was lowered.
-    bool grow(std::size_t from, std::size_t to) {
-        if (!may_lower(ranges_[from], ranges_[to])) return false;
-        bool any = false;
+    /// Call lower(i, size) for samples of one edge that are coarser than what grows to them from
+    /// another one, as long as it says yes.
+    template <class Lower>
+    void grow(std::size_t from, std::size_t to, const Lower& lower) const {
+        if (!may_lower(ranges_[from], ranges_[to])) return;
         for (std::size_t i = 0; i < blocks(from); ++i) {
             const SampleRange& source = blocks_[first_block_[from] + i];
             if (!may_lower(source, ranges_[to])) continue;
             for (std::size_t k = 0; k < blocks(to); ++k)
-                if (may_lower(source, blocks_[first_block_[to] + k]))
-                    any = grow(source, block(from, i), block(to, k)) || any;
+                if (may_lower(source, blocks_[first_block_[to] + k]) &&
+                    !grow(source, block(from, i), block(to, k), lower))
+                    return;
         }
-        return any;
     }
 
-    bool grow(const SampleRange& source, Rows from, Rows to) {
-        bool any = false;
+    template <class Lower>
+    bool grow(const SampleRange& source, Rows from, Rows to, const Lower& lower) const {
         for (std::size_t i = to.first; i < to.last; ++i) {
-            double& size = sizes_.data()[i];
+            const double size = sizes_.data()[i];
             SampleRange here;
             here.box.add(edges_.points[i]);
             here.add(size);
@@ -286,11 +270,9 @@ class GradationOverFaces {
             double least = size;
             for (std::size_t j = from.first; j + 1 < from.last; ++j)
                 least = std::min(least, grown_from(j, edges_.points[i]));
-            if (!(least < (1.0 - CHANGE) * size)) continue;
-            size = least;
-            any = true;
+            if (least < (1.0 - CHANGE) * size && !lower(i, least)) return false;
         }
-        return any;
+        return true;
     }
 
     /// What grows to a point from the segment between samples j and j + 1.
@@ -321,8 +303,7 @@ class GradationOverFaces {
     Array<std::int32_t> lowered_;      // of the edges: the last round that lowered one
     std::vector<SampleRange> ranges_;  // of the edges
     std::vector<SampleRange> blocks_;
-    SampleBoxes boxes_;                     // of the edges of one face
-    std::vector<std::size_t> first_block_;  // of the edges
+    std::vector<std::size_t> first_block_;  // of the edges, and how many there are
 };
 
 }  // namespace

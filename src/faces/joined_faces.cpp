@@ -35,10 +35,10 @@ class Joining {
         find_used_points();
         rank_shared_nodes();
         const PlaceOfFace& all = places_.back();
-        found_.triangles = Array<std::int32_t>(all.corner);
-        found_.face_ids = Array<std::int32_t>(all.corner / 3);
-        found_.uv = Array<Point2>(all.uv);
-        found_.uv_triangles = Array<std::int32_t>(all.corner);
+        found_.triangles = Array<std::int32_t>::unfilled(all.corner);
+        found_.face_ids = Array<std::int32_t>::unfilled(all.corner / 3);
+        found_.uv = Array<Point2>::unfilled(all.uv);
+        found_.uv_triangles = Array<std::int32_t>::unfilled(all.corner);
         for_each_face([&](std::size_t k) { place(k); });
         return std::move(found_);
     }
@@ -55,7 +55,7 @@ class Joining {
 
     /// Which points have a triangle, and where those inside go.
     void find_used_points() {
-        is_used_ = Array<std::uint8_t>(places_.back().point);
+        is_used_ = Array<std::uint8_t>::unfilled(places_.back().point);
         Array<std::size_t> inner(parts_.size());
         for_each_face([&](std::size_t k) {
             const FacePart& part = parts_[k];
@@ -89,8 +89,8 @@ class Joining {
         found_.rank = Array<std::int64_t>(count);
         for (std::size_t n = 0; n < count; ++n)
             found_.rank.data()[n] = used.data()[n] ? static_cast<std::int64_t>(vertices_++) : -1;
-        found_.points = Array<Point3>(vertices_ + places_.back().inner);
-        found_.sizes = Array<double>(vertices_ + places_.back().inner);
+        found_.points = Array<Point3>::unfilled(vertices_ + places_.back().inner);
+        found_.sizes = Array<double>::unfilled(vertices_ + places_.back().inner);
         for (std::size_t n = 0; n < count; ++n) {
             if (!used.data()[n]) continue;
             const std::int64_t vertex = found_.rank.data()[n];

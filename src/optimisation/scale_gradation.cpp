@@ -4,14 +4,16 @@
 #include <utility>
 
 #include "optimisation/marked_triangles.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr int SWEEPS = 20;         // at most: sizes spread by an edge and more in each
-constexpr double BEYOND = 1.08;    // times the slope: sizes are not lowered for less
-constexpr double KEPT = 1.02;      // and then to this: what is lowered lowers its neighbours
-constexpr double LOWERED = 0.999;  // a scale below it is none of rounding
+constexpr int SWEEPS = 20;       // at most: sizes spread by an edge and more in each
+constexpr double BEYOND = 1.08;  // times the slope: sizes are not lowered for less
+constexpr double KEPT = 1.02;    // and then to this: what is lowered lowers its neighbours
+constexpr std::size_t SWEPT_TOGETHER = 1 << 14;  // triangles looked at together
+constexpr double LOWERED = 0.999;                // a scale below it is none of rounding
 
 /// The factor on the sizes of b that lets them grow from a by no more than the slope; 1 where they
 /// hardly do.
@@ -46,22 +48,56 @@ void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
     }
 }
 
+bool has_marked_corner(const Triangulation& t, Triangle k, const Array<std::uint8_t>& marked) {
+    return marked[t.tri[3 * k]] != 0 || marked[t.tri[3 * k + 1]] != 0 ||
+           marked[t.tri[3 * k + 2]] != 0;
+}
+
+/// Of triangles in their order: would ``factor`` change no size across them, as all are now?
+///
+/// Threads find that of many, so that one has few left to sweep over in turn; one thread alone
+/// sweeps over all of them, and asks nothing before: none is returned.
+template <class Factor>
+Array<std::uint8_t> idle_triangles(const Triangulation& t, const Array<Triangle>& around,
+                                   const Array<std::uint8_t>& from, const Factor& factor) {
+    if (allowed_threads() < 2) return {};
+    auto idle = Array<std::uint8_t>::unfilled(around.size());
+    for_each_block(around.size(), SWEPT_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            bool is_idle = true;
+            for_each_way(t, around.data()[i], [&](Vertex a, Vertex b) {
+                is_idle = is_idle && (from[a] == 0 || factor(a, b) == 1.0);
+            });
+            idle.data()[i] = is_idle;
+        }
+    });
+    return idle;
+}
+
 /// Sweeps over the triangles at vertices whose sizes have changed in the sweep before.
 ///
-/// ``change(a, b)`` changes the size of b by that of a, whose size has changed, and says so.
-template <class Change>
+/// ``factor(a, b)``: on the size of b, by that of a, whose size has changed; 1 for no change.
+/// ``change(b, factor)`` makes it.
+template <class Factor, class Change>
 void spread_scales(const Triangulation& t, const Stars& stars, Array<std::uint8_t> from,
-                   Change change) {
+                   const Factor& factor, const Change& change) {
     Array<Triangle> around = triangles_at(t, &stars, from);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        const Array<std::uint8_t> idle = idle_triangles(t, around, from, factor);
         Array<std::uint8_t> is_changed(t.xy.size(), 0);
         bool changes = false;
-        for (const Triangle k : around)
+        for (std::size_t i = 0; i < around.size(); ++i) {
+            const Triangle k = around.data()[i];
+            const bool is_idle = !idle.empty() && idle.data()[i] != 0;
+            if (is_idle && (!changes || !has_marked_corner(t, k, is_changed))) continue;
             for_each_way(t, k, [&](Vertex a, Vertex b) {
-                if (from[a] == 0 || !change(a, b)) return;
+                const double by = from[a] == 0 ? 1.0 : factor(a, b);
+                if (by == 1.0) return;
+                change(b, by);
                 is_changed[b] = 1;
                 changes = true;
             });
+        }
         if (!changes) return;
         around = triangles_at(t, &stars, is_changed);
         from = std::move(is_changed);
@@ -72,13 +108,14 @@ void spread_scales(const Triangulation& t, const Stars& stars, Array<std::uint8_
 /// smaller than its neighbour's less the slope times the way; none above that of the size field.
 void raise_towards(const Triangulation& t, SurfaceFrames& s, const Stars& stars,
                    Array<std::uint8_t> from, double slope) {
-    spread_scales(t, stars, std::move(from), [&](Vertex a, Vertex b) {
-        if (!(s.scale[b] < LOWERED)) return false;
+    const auto factor = [&](Vertex a, Vertex b) {
+        if (!(s.scale[b] < LOWERED)) return 1.0;
         const double least = s.size[a] - slope * norm(s.point[b] - s.point[a]);
-        if (!(s.size[b] < LOWERED * least)) return false;
-        shorten(s, b, std::min(least / s.size[b], 1.0 / s.scale[b]));
-        return true;
-    });
+        if (!(s.size[b] < LOWERED * least)) return 1.0;
+        return std::min(least / s.size[b], 1.0 / s.scale[b]);
+    };
+    const auto raise = [&](Vertex b, double by) { shorten(s, b, by); };
+    spread_scales(t, stars, std::move(from), factor, raise);
 }
 
 }  // namespace
@@ -87,13 +124,15 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, const Stars& stars, V
                  double slope, bool around_all) {
     Array<std::uint8_t> from(t.xy.size(), 0), found(t.xy.size(), 0);
     for (Vertex v = 0; v < t.vertices(); ++v) from[v] = around_all || s.scale[v] < LOWERED ? 1 : 0;
-    spread_scales(t, stars, std::move(from), [&](Vertex a, Vertex b) {
-        const double factor = factor_on(s, a, b, slope);
-        if (!(factor < 1.0)) return false;
-        shorten(s, b, factor);
+    const auto factor = [&](Vertex a, Vertex b) {
+        const double by = factor_on(s, a, b, slope);
+        return by < 1.0 ? by : 1.0;
+    };
+    const auto lower = [&](Vertex b, double by) {
+        shorten(s, b, by);
         marks.active[b] = found[b] = 1;
-        return true;
-    });
+    };
+    spread_scales(t, stars, std::move(from), factor, lower);
     return static_cast<int>(std::count(found.begin(), found.end(), 1));
 }
 

@@ -14,7 +14,7 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
     state.end_passes();
     const Triangulation& t = state.t;
     MappedPatch found;
-    found.uv.resize(t.xy.size());
+    found.uv = Array<Point2>::unfilled(t.xy.size());
     for_each_block(t.xy.size(), POINTS_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v) found.uv[v] = state.chart().to_uv(t.xy[v]);
     });
@@ -26,8 +26,8 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
                                     boundary);
     const std::span<const std::int64_t> vertex{found.seamless.vertex.data(),
                                                found.seamless.vertex.size()};
-    found.sizes.resize(vertex.size());
-    found.points.resize(vertex.size());
+    found.sizes = Array<double>::unfilled(vertex.size());
+    found.points = Array<Point3>::unfilled(vertex.size());
     state.surface().for_each_block(
         vertex.size(), POINTS_TOGETHER,
         [&](SurfaceReader& reader, std::size_t first, std::size_t last) {

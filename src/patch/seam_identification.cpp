@@ -1,11 +1,16 @@
 #include "patch/seam_identification.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 #include <vector>
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr std::size_t SEEN_TOGETHER = 1 << 15;  // triangles or vertices looked at together
 
 /// An edge without direction: its smaller end comes first.
 using Edge = std::pair<std::int64_t, std::int64_t>;
@@ -63,11 +68,15 @@ class Identification {
 
     SurfaceTriangles triangles() {
         number_points();
+        if (expected_.joined == 0) {
+            copy_triangles();
+            return std::move(found_);
+        }
         found_.triangles.reserve(domain_.tri.size());
         found_.corners.reserve(domain_.tri.size());
         for (std::size_t k = 0; k < domain_.region.size(); ++k)
             if (domain_.region[k] != DEAD) add_triangle(static_cast<Triangle>(k));
-        if (expected_.joined > 0) check();
+        check();
         return std::move(found_);
     }
 
@@ -85,15 +94,46 @@ class Identification {
     /// Points are the vertices in use that stand for themselves, in their order.
     void number_points() {
         Array<std::uint8_t> used(domain_.vertices, 0);
-        for (std::size_t e = 0; e < domain_.tri.size(); ++e)
-            if (domain_.region[e / 3] != DEAD) used[domain_.tri[e]] = 1;
+        for_each_block(domain_.region.size(), SEEN_TOGETHER, [&](std::size_t k, std::size_t last) {
+            for (; k < last; ++k) {
+                if (domain_.region[k] == DEAD) continue;
+                for (std::size_t e = 3 * k; e < 3 * k + 3; ++e)  // by several threads at once
+                    std::atomic_ref(used[domain_.tri[e]]).store(1, std::memory_order_relaxed);
+            }
+        });
+        used_ = std::count(used.begin(), used.end(), std::uint8_t{1});
+        found_.vertex = collect_by_blocks<std::int64_t>(
+            used.size(), SEEN_TOGETHER,
+            [&](std::size_t first, std::size_t last, Array<std::int64_t>& found) {
+                for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v)
+                    if (used[v] && same_[v] == v) found.push_back(v);
+            });
         point_.resize(domain_.vertices, NIL);
-        for (Vertex v = 0; v < domain_.vertices; ++v) {
-            used_ += used[v];
-            if (!used[v] || same_[v] != v) continue;
-            point_[v] = static_cast<std::int32_t>(found_.vertex.size());
-            found_.vertex.push_back(v);
-        }
+        for_each_block(found_.vertex.size(), SEEN_TOGETHER, [&](std::size_t n, std::size_t last) {
+            for (; n < last; ++n) point_[found_.vertex.data()[n]] = static_cast<std::int32_t>(n);
+        });
+    }
+
+    /// Those of a domain none of whose vertices coincide.
+    void copy_triangles() {
+        const Array<Triangle> live = collect_by_blocks<Triangle>(
+            domain_.region.size(), SEEN_TOGETHER,
+            [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+                for (std::size_t k = first; k < last; ++k)
+                    if (domain_.region[k] != DEAD) found.push_back(static_cast<Triangle>(k));
+            });
+        found_.triangles = Array<std::int32_t>::unfilled(3 * live.size());
+        found_.corners = Array<std::int32_t>::unfilled(3 * live.size());
+        for_each_block(live.size(), SEEN_TOGETHER, [&](std::size_t n, std::size_t last) {
+            for (; n < last; ++n)
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    const std::size_t to = 3 * n + corner;
+                    const Vertex v =
+                        domain_.tri[3 * static_cast<std::size_t>(live.data()[n]) + corner];
+                    found_.triangles.data()[to] = point_[v];
+                    found_.corners.data()[to] = v;
+                }
+        });
     }
 
     [[nodiscard]] std::int32_t point(HalfEdge e) const { return point_[same_[domain_.tri[e]]]; }
@@ -103,7 +143,7 @@ class Identification {
         const HalfEdge e = 3 * k;
         for (HalfEdge f = e; f < e + 3; ++f) border_ += domain_.adj[f] < 0;
         const std::int32_t a = point(e), b = point(e + 1), c = point(e + 2);
-        if (expected_.joined > 0 && (a == b || b == c || c == a)) {
+        if (a == b || b == c || c == a) {
             ++lost_;
             for (const std::int32_t corner : {a, b, c}) lost_points_.push_back(corner);
             return;
@@ -111,7 +151,7 @@ class Identification {
         for (const std::int32_t corner : {a, b, c}) found_.triangles.push_back(corner);
         for (HalfEdge f = e; f < e + 3; ++f) {
             found_.corners.push_back(domain_.tri[f]);
-            if (expected_.joined > 0) count_edge(f);
+            count_edge(f);
         }
     }
 

@@ -1,6 +1,7 @@
 #include "triangulation/compaction.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "triangulation/space_filling_order.hpp"
 #include "values/threads.hpp"
@@ -18,11 +19,19 @@ constexpr std::size_t ROOM = 16;                  // there is room for this part
 /// The vertices that triangles inside use, in the order they will have.
 Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
     Array<std::uint8_t> used(t.xy.size(), 0);
-    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e)
-        if (t.region[e / 3] == INSIDE) used[t.tri[e]] = 1;
-    Array<Vertex> inside;
-    for (Vertex v = 0; v < t.vertices(); ++v)
-        if (used[v]) inside.push_back(v);
+    for_each_block(t.region.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
+        for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k) {
+            if (t.region[k] != INSIDE) continue;
+            for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)  // by several threads at once
+                std::atomic_ref(used[t.tri[e]]).store(1, std::memory_order_relaxed);
+        }
+    });
+    const Array<Vertex> inside = collect_by_blocks<Vertex>(
+        t.xy.size(), COPIED_TOGETHER,
+        [&](std::size_t start, std::size_t end, Array<Vertex>& found) {
+            for (auto v = static_cast<Vertex>(start); v < static_cast<Vertex>(end); ++v)
+                if (used[v]) found.push_back(v);
+        });
     if (triangles < LARGE_TRIANGULATION) return inside;
     return along_hilbert_curve({t.xy.data(), t.xy.size()}, {inside.data(), inside.size()});
 }
@@ -43,10 +52,10 @@ Array<Triangle> number_by_vertex(const Triangulation& t, const Array<Vertex>& ve
         return std::min({vertex_number[t.tri[3 * k]], vertex_number[t.tri[3 * k + 1]],
                          vertex_number[t.tri[3 * k + 2]]});
     };
-    Array<Triangle> number(t.region.size(), NIL);  // at first those vertices
+    auto number = Array<Triangle>::unfilled(t.region.size());  // at first those vertices
     for_each_block(t.region.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k)
-            if (t.region[k] == INSIDE) number[k] = vertex_of(k);
+            number[k] = t.region[k] == INSIDE ? vertex_of(k) : NIL;
     });
     for (Triangle k = 0; k < t.triangles(); ++k)
         if (t.region[k] == INSIDE) ++first[number[k] + 1];
@@ -69,6 +78,13 @@ Array<Part> parts_of(const Array<Triangle>& first) {
             {static_cast<Vertex>(start), static_cast<Vertex>(end), first[start], first[end]});
     }
     return parts;
+}
+
+/// So many values that are to be written, with room for more.
+template <class T>
+void begin_unfilled(Array<T>& array, std::size_t size, std::size_t room) {
+    array = Array<T>::unfilled(std::max(size, room));
+    array.resize(size);
 }
 
 void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
@@ -96,10 +112,11 @@ DomainTriangulation cut_inside(const Triangulation& t) {
     DomainTriangulation domain{{}, Array<Vertex>(t.xy.size(), NIL)};
     Triangulation& out = domain.t;
     const Array<Vertex> inside = vertices_inside(t, triangles);
-    out.reserve(inside.size() + inside.size() / ROOM + 64);
-    out.fixed.reserve(2 * 3 * (inside.size() + inside.size() / ROOM));
-    out.xy.resize(inside.size());
-    out.size.resize(inside.size());
+    const std::size_t vertices = inside.size() + inside.size() / ROOM + 64;  // with room for more
+    out.region.reserve(2 * vertices);
+    out.mark.reserve(2 * vertices);
+    begin_unfilled(out.xy, inside.size(), vertices);
+    begin_unfilled(out.size, inside.size(), vertices);
     for_each_block(inside.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (std::size_t n = start; n < end; ++n) {
             domain.vertex_number[inside[n]] = static_cast<Vertex>(n);
@@ -108,9 +125,9 @@ DomainTriangulation cut_inside(const Triangulation& t) {
         }
     });
     const auto half_edges = 3 * static_cast<std::size_t>(triangles);
-    out.tri.resize(half_edges);
-    out.adj.resize(half_edges, NIL);
-    out.fixed.resize(half_edges);
+    begin_unfilled(out.tri, half_edges, 6 * vertices);
+    begin_unfilled(out.adj, half_edges, 6 * vertices);
+    begin_unfilled(out.fixed, half_edges, 6 * vertices);
     out.region.resize(half_edges / 3, 0);
     out.mark.resize(half_edges / 3, 0);
     if (triangles < LARGE_TRIANGULATION) {

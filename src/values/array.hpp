@@ -26,6 +26,14 @@ class Array {
         std::copy(values.begin(), values.end(), data_);
         size_ = values.size();
     }
+    /// Of so many values, each of which its maker writes before anybody reads it: threads that fill
+    /// parts of it touch their memory first.
+    [[nodiscard]] static Array unfilled(std::size_t size) {
+        Array made;
+        made.reserve(size);
+        made.size_ = size;
+        return made;
+    }
     Array(const Array& other) : Array(std::span<const T>(other.data_, other.size_)) {}
     Array(Array&& other) noexcept { swap(other); }
     Array& operator=(Array other) noexcept {

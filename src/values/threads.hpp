@@ -43,6 +43,9 @@ void for_each_block(std::size_t count, std::size_t block, const Work& work) {
     for (std::thread& other : others) other.join();
 }
 
+/// So many are copied before another thread has begun.
+inline constexpr std::size_t FEW_VALUES = 1 << 16;
+
 /// What work(first, last, found) adds to ``found``, for blocks of [0, count) in their order.
 template <class Value, class Work>
 Array<Value> collect_by_blocks(std::size_t count, std::size_t block, const Work& work) {
@@ -53,12 +56,14 @@ Array<Value> collect_by_blocks(std::size_t count, std::size_t block, const Work&
         found[first / block].swap(own);
     });
     if (found.size() == 1) return std::move(found[0]);
-    std::size_t size = 0;
-    for (const Array<Value>& some : found) size += some.size();
-    Array<Value> all;
-    all.reserve(size);
-    for (const Array<Value>& some : found)
-        for (const Value value : some) all.push_back(value);
+    std::vector<std::size_t> start(1, 0);
+    for (const Array<Value>& some : found) start.push_back(start.back() + some.size());
+    Array<Value> all = Array<Value>::unfilled(start.back());
+    for_each_block(found.size(), start.back() < FEW_VALUES ? found.size() + 1 : 1,
+                   [&](std::size_t first, std::size_t last) {
+                       for (std::size_t k = first; k < last; ++k)
+                           std::copy(found[k].begin(), found[k].end(), all.begin() + start[k]);
+                   });
     return all;
 }
 

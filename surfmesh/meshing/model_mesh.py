@@ -38,7 +38,7 @@ from surfmesh.meshing.estimate.trial_mesh import FEW, WHOLE, WHOLE_STRETCHED, co
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import edge_refinement
-from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
+from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states, later_jobs
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.balanced_rounds import (
@@ -263,12 +263,11 @@ class _Rounds:
 
     def _mesh_faces(self, outdated: list[FaceState], limits: Mapping[int, SizeLimits]) -> None:
         with self.watch.stage("packing"):
-            jobs = face_jobs(self.model, outdated, self.nodes, limits, self.how.optimise)
-            for state, job in zip(outdated, jobs):
-                state.job = job
+            jobs = later_jobs(self.model, outdated, self.nodes, limits, self.how.optimise)
             meshes = self.how.workers.meshed(jobs)
             for count, (place, mesh) in enumerate(meshes, 1):
                 state = outdated[place]
+                state.job = jobs[place]
                 state.take(mesh)
                 if self.watch.counts_work:
                     self.watch.spend(FACE_WORK + state.job.nodes + mesh.count)

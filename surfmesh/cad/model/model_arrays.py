@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -58,14 +57,14 @@ class ModelArrays:
     """(f,) of the faces, model units squared."""
 
     @cached_property
-    def edges_of_face(self) -> tuple[np.ndarray, ...]:
-        """For each face its edges that are not collapsed, each once, rising."""
+    def edges_of_faces(self) -> tuple[np.ndarray, np.ndarray]:
+        """(f + 1,) where those of each face begin, and (k,) the edges of faces that are not
+        collapsed, each once in a face, rising."""
         there = ~self.collapsed[self.coedge_edge]
         count = len(self.collapsed)
         both = np.unique(self.coedge_face[there] * count + self.coedge_edge[there])
-        first = np.searchsorted(both, np.arange(len(self.area) + 1) * count).tolist()
-        edges = both % max(count, 1)
-        return tuple(edges[a:b] for a, b in pairwise(first))
+        first = np.searchsorted(both, np.arange(len(self.area) + 1) * count)
+        return first, both % max(count, 1)
 
     @classmethod
     def of(cls, model: CadModel) -> ModelArrays:

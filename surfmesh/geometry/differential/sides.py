@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.infinite_speed import rounding_of_sides
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Domain, Surface
 
 SAMPLES = 65  # points on which two sides are compared; uneven, so that symmetry fools nobody
@@ -92,9 +92,13 @@ def find_sides(surface: Surface) -> SideTopology:
     uv = np.where(_PLACES < 1.0, low + _PLACES * (high - low), high)
     (cloud,) = surface.evaluate(uv, 0)
     curves = cloud[-4 * SAMPLES :].reshape(4, SAMPLES, 3)
-    tolerance = diagonal(cloud) * np.maximum(SAME, rounding_of_sides(surface))
+    columns = np.ascontiguousarray(cloud.T)
+    of_sides = columns[:, -4 * SAMPLES :].reshape(3, 4, SAMPLES)
+    whole = norm(columns.max(axis=1) - columns.min(axis=1))
+    tolerance = whole * np.maximum(SAME, rounding_of_sides(surface))
 
-    collapsed = [diagonal(c) <= near for c, near in zip(curves, tolerance)]
+    extents = (of_sides.max(axis=2) - of_sides.min(axis=2)).T
+    collapsed = [norm(extent) <= near for extent, near in zip(extents, tolerance.tolist())]
     partner, reverse = [-1] * 4, [False] * 4
     for first, second in _PAIRS:
         if collapsed[first] or collapsed[second] or partner[first] >= 0 or partner[second] >= 0:

@@ -135,16 +135,14 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     if len(points) < 3:
         return []
     ends, sag = model_arrays(model).mesh_ends, edge_sags(points, first)
-    several = np.array([len(own) > 1 for own in samples.edges_of_face], bool)
+    several = np.diff(samples.first_of_face) > 1
     looked_at = np.flatnonzero(samples.is_wide & several & (samples.narrow_width > 0.0))
     widths, seen = np.unique(samples.narrow_width[looked_at], return_index=True)
     count = np.diff(first)
     found = []
     for width in widths[np.argsort(seen)].tolist():  # in the order of their first faces
-        faces = looked_at[samples.narrow_width[looked_at] == width].tolist()
-        edges = [samples.edges_of_face[face] for face in faces]
-        start = offsets(np.array([len(own) for own in edges], np.int64))
-        in_a_row = np.concatenate(edges)
+        faces = looked_at[samples.narrow_width[looked_at] == width]
+        start, in_a_row = samples.edges_of_faces(faces)
         reach = np.repeat(width + sag + sag.max(), count)
         gap, boxes = edge_gaps(points, reach, first, ends, in_a_row, start)
         near = np.zeros(len(model.edges), bool)
@@ -152,7 +150,8 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
         low, high = boxes[:, :3], boxes[:, 3:]
         some = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
         for k in np.flatnonzero(some).tolist():
-            face, own = faces[k], edges[k][near[edges[k]]]
+            face, own = int(faces[k]), in_a_row[start[k] : start[k + 1]]
+            own = own[near[own]]
             for a in own.tolist():
                 apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)
                 close = np.linalg.norm(apart, axis=1) <= width + sag[a] + sag[own]

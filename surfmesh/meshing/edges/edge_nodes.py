@@ -134,6 +134,8 @@ def graded_with_mates(
         target_size = lowered_to_mates(samples.mates, samples.t, samples.first, target_size)
     for turns_left in reversed(range(1 if samples.is_anisotropic else MATED_TURNS)):
         graded = grade(model, samples, target_size, sizing)
+        if not samples.mates and not samples.hidden.any():
+            return graded, graded
         size = np.where(samples.is_hidden, target_size, graded)
         if samples.mates:
             size = lowered_to_mates(samples.mates, samples.t, samples.first, size)

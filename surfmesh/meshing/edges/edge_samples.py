@@ -7,7 +7,7 @@ import numpy as np
 
 from surfmesh._core.edges import MateRuns
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import offsets
+from surfmesh.cad.model.model_arrays import offsets, rows_of
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,10 @@ class EdgeSamples:
     """(e,) bool: the edge is curved, and another one joins the same two vertices."""
     vertex: np.ndarray
     """(v,) for each CAD vertex the number that it has in the mesh."""
-    edges_of_face: tuple[np.ndarray, ...]
-    """For each face the edges with samples, each once."""
+    first_of_face: np.ndarray
+    """(f + 1,) where the edges of each face begin."""
+    face_edges: np.ndarray
+    """(k,) for each face the edges with samples, each once."""
     narrow_width: np.ndarray
     """(f,) up to where a face is narrow, model units."""
     narrow: dict[int, NarrowFace]
@@ -78,15 +80,24 @@ class EdgeSamples:
 
     @cached_property
     def edges_of_wide_faces(self) -> tuple[np.ndarray, np.ndarray]:
-        """(w + 1,) where the edges of each face that is not narrow begin, and these (k,)."""
-        wide = [own for face, own in enumerate(self.edges_of_face) if face not in self.narrow]
-        first = offsets(np.array([len(own) for own in wide], np.int64))
-        return first, np.concatenate([np.empty(0, np.int64), *wide])
+        """Those of each face that is not narrow, as ``edges_of_faces``."""
+        if not self.narrow:
+            return self.first_of_face, self.face_edges
+        return self.edges_of_faces(np.flatnonzero(self.is_wide))
 
     @cached_property
     def is_hidden(self) -> np.ndarray:
         """(n,) bool: the sample is of a hidden edge."""
         return np.repeat(self.hidden, np.diff(self.first))
+
+    def edges_of(self, face: int) -> np.ndarray:
+        """The edges of a face."""
+        return self.face_edges[self.first_of_face[face] : self.first_of_face[face + 1]]
+
+    def edges_of_faces(self, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(n + 1,) where those of each of n faces begin, and the edges (k,)."""
+        count = self.first_of_face[faces + 1] - self.first_of_face[faces]
+        return offsets(count), self.face_edges[rows_of(self.first_of_face, faces)]
 
     def of(self, edge: int) -> slice:
         """The samples of one edge."""
@@ -102,6 +113,6 @@ class EdgeSamples:
 
     def along(self, face: int) -> np.ndarray:
         """The samples of all edges of a face."""
-        edges = self.edges_of_face[face]
+        edges = self.edges_of(face)
         parts = [np.arange(self.first[e], self.first[e + 1]) for e in edges]
         return np.concatenate(parts) if parts else np.empty(0, np.int64)

@@ -65,7 +65,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         *rules.sags(),
         _has_twin(arrays, total_curvature),
         arrays.vertex,
-        arrays.edges_of_face,
+        *arrays.edges_of_faces,
         np.zeros(len(model.faces)),
         {},
         np.zeros(len(model.edges), bool),
@@ -184,32 +184,31 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
     if not len(samples.points):
         return
     ends = model_arrays(model).mesh_ends
-    by_sizes: dict[tuple[float | None, float, float], list[int]] = {}
+    by_sizes: dict[tuple[float | None, float, float], list[np.ndarray]] = {}
     wide = samples.is_wide  # across others is nothing to be meshed, nor beside the end of one side
     for own, numbers in sizing.sets(len(model.faces)):
         some = numbers[wide[numbers]]
         for narrow in np.unique(samples.narrow_width[some]).tolist():
-            same = some[samples.narrow_width[some] == narrow].tolist()
-            by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).extend(same)
+            same = some[samples.narrow_width[some] == narrow]
+            by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(same)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
     narrowest = NARROWEST * model.diagonal
     asked = samples.target_size
     for (count, least, narrow), faces in by_sizes.items():
-        edges = [samples.edges_of_face[face] for face in faces]
-        first = np.zeros(len(faces) + 1, np.int64)
-        np.cumsum([len(own) for own in edges], out=first[1:])
+        first, edges = samples.edges_of_faces(np.concatenate(faces))
         if not first[-1]:
             continue
         fraction = 1.0 if count is None else size_across(1.0, count, slope)
-        gap, _ = edge_gaps(
-            samples.points, asked / fraction, samples.first, ends, np.concatenate(edges), first
-        )
-        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked)
-        rows = np.flatnonzero((gap >= ignored) & np.isfinite(gap))
-        sliver = np.minimum(LONGER * gap[rows], narrowest)
+        reach = asked if fraction == 1.0 else asked / fraction
+        gap, _ = edge_gaps(samples.points, reach, samples.first, ends, edges, first)
+        rows = np.flatnonzero(np.isfinite(gap))
+        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked[rows])
+        rows = rows[gap[rows] >= ignored]
+        gap = gap[rows]
+        sliver = np.minimum(LONGER * gap, narrowest)
         sliver[sliver < LEAST_NARROW * narrowest] = narrowest
         along = ratio if count is None else fraction
-        size = np.maximum(along * gap[rows], np.maximum(sliver, least))
+        size = np.maximum(along * gap, np.maximum(sliver, least))
         samples.gap_size[rows] = np.minimum(samples.gap_size[rows], size)
     np.minimum(samples.target_size, samples.gap_size, out=samples.target_size)

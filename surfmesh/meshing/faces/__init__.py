@@ -18,6 +18,7 @@ inward_faces: faces whose sizes the core grows inward from their edges.
 face_in_rows: a face's mesh that the core keeps in rows with others.
 face_queue: ordinary faces, which the core meshes one after the other without the interpreter.
 partitions: meshes of faces that stay in files which all workers see.
+face_jobs: jobs of many faces, made when they are wanted.
 face_workers: who meshes the faces: this thread, threads of this process, or any executor.
 opposite_faces: two sides of a wall thinner than the chord: meshed once, so that they do not cross.
 face_sizings: the size requests of each face of a model, and of the sources those that reach it.

@@ -11,6 +11,7 @@ from itertools import pairwise
 from surfmesh._core import faces as core
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_in_rows import FaceInRows
+from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_mesh import continued
 from surfmesh.meshing.faces.inward_faces import InwardFaces
 
@@ -19,7 +20,8 @@ class FaceQueue:
     """Faces that the core meshes, whoever calls for the next ones."""
 
     def __init__(
-        self, jobs: Sequence[FaceJob], order: Iterable[int], inward: InwardFaces | None = None
+        self, jobs: Sequence[FaceJob] | FaceJobs, order: Iterable[int],
+        inward: InwardFaces | None = None,
     ) -> None:  # fmt: skip
         """order: numbers of the jobs, as they are to be begun; others than inward ones are left.
         inward: what makes faces of them, where several queues do."""

@@ -12,6 +12,7 @@ from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_nodes import CutEdges, EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_sizings import face_sizings
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck
 from surfmesh.sizing.options.model_sizing import ModelSizing
@@ -80,6 +81,21 @@ def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> l
         FaceState(number, face, sizings[number], samples.narrow.get(number), exact)
         for number, (face, exact) in enumerate(zip(model.faces, exact_loops(model)))
     ]
+
+
+def later_jobs(
+    model: CadModel, faces: Sequence[FaceState], nodes: CutEdges,
+    limits: Mapping[int, SizeLimits], optimise: bool,
+) -> FaceJobs:  # fmt: skip
+    """As ``face_jobs``, of some faces at a time."""
+    arrays, numbers = model_arrays(model), np.array([state.number for state in faces], np.int64)
+    own = np.diff(nodes.first)[arrays.coedge_edge]
+    count = np.diff(offsets(np.where(own == 0, 2, own))[arrays.first_of_face])  # 2: a point
+
+    def made(which: list[int]) -> list[FaceJob]:
+        return face_jobs(model, [faces[k] for k in which], nodes, limits, optimise)
+
+    return FaceJobs(count[numbers].tolist(), made)
 
 
 def face_jobs(

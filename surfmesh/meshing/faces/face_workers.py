@@ -8,7 +8,7 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
@@ -17,6 +17,7 @@ from threading import Event
 
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.inward_faces import InwardFaces
@@ -65,26 +66,30 @@ class FaceWorkers:
         """A mesh that the caller has made of others, as ``meshed`` gives it."""
         return mesh if self.store is None else self.store.kept(mesh)
 
-    def meshed(self, jobs: list[FaceJob]) -> Iterator[tuple[int, FaceMesh]]:
+    def meshed(self, jobs: Sequence[FaceJob] | FaceJobs) -> Iterator[tuple[int, FaceMesh]]:
         """The number and the mesh of each job, in the order in which they are done.
 
-        Where the iterator is closed early, what has not begun is not done. Raises
-        ``MeshingError`` when the executor has lost its workers.
+        Those of ``FaceJobs`` are made when they are begun, most work first. Where the iterator is
+        closed early, what has not begun is not done. Raises ``MeshingError`` when the executor has
+        lost its workers.
         """
+        jobs = jobs if isinstance(jobs, FaceJobs) else FaceJobs.of(jobs)
         if self.executor is not None:
             yield from _by_executor(self.executor, jobs, BATCHES, replace(self, executor=None))
             return
-        work = list(map(expected_work, jobs))
-        waiting = sorted(range(len(jobs)), key=lambda k: (-work[k], k))
+        work = list(map(expected_work, jobs.nodes))
+        waiting = sorted(range(len(work)), key=lambda k: (-work[k], k))
         threads = self.threads if sum(work) > LITTLE else 1
         if threads > 1 and self._is_to_be_shared(work[waiting[0]], sum(work)):
             largest = waiting.pop(0)
+            jobs.make([largest])
             with allowed_threads(threads):
                 mesh = self.work(jobs[largest])
             yield largest, mesh
         if threads > 1:
             yield from self._by_threads(jobs, waiting)
             return
+        jobs.make(waiting)
         queue = FaceQueue(jobs, waiting)
         yield from ((k, self.work(jobs[k])) for k in queue.left)
         while made := queue.work(self.at_once):
@@ -96,10 +101,11 @@ class FaceWorkers:
         return largest > max(shared, whole / self.threads)
 
     def _by_threads(
-        self, jobs: list[FaceJob], waiting: list[int]
+        self, jobs: FaceJobs, waiting: list[int]
     ) -> Iterator[tuple[int, FaceMesh]]:  # fmt: skip
         """waiting: jobs in their order. The first are begun before the others are made ready."""
         inward = InwardFaces()
+        jobs.make(waiting[:BEGUN])
         queues = [FaceQueue(jobs, waiting[:BEGUN], inward)]
         single = queues[0].left[::-1]  # what the core does not mesh by itself; the last is next
         is_ready = Event()
@@ -131,6 +137,7 @@ class FaceWorkers:
             try:
                 for _ in range(self.threads):
                     pool.submit(take_all)
+                jobs.make(waiting[BEGUN:])
                 queues.append(FaceQueue(jobs, waiting[BEGUN:], inward))
                 single[:0] = queues[1].left[::-1]
                 is_ready.set()
@@ -149,11 +156,12 @@ class FaceWorkers:
 
 
 def _by_executor(
-    executor: Executor, jobs: list[FaceJob], batches: int, workers: FaceWorkers
+    executor: Executor, jobs: FaceJobs, batches: int, workers: FaceWorkers
 ) -> Iterator[tuple[int, FaceMesh]]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
-        for batch in batches_of(list(map(expected_work, jobs)), batches):
+        jobs.make(range(len(jobs)))
+        for batch in batches_of(list(map(expected_work, jobs.nodes)), batches):
             future = executor.submit(_mesh_batch, workers, [jobs[k] for k in batch])
             futures.update({k: (future, place) for place, k in enumerate(batch)})
         for k in range(len(jobs)):
@@ -172,9 +180,9 @@ def _mesh_batch(workers: FaceWorkers, jobs: list[FaceJob]) -> list[FaceMesh]:
     return [made[k] for k in range(len(jobs))]
 
 
-def expected_work(job: FaceJob) -> float:
+def expected_work(nodes: int) -> float:
     """About how much there is to do, in triangles: as of a square with so many nodes around."""
-    return FACE_WORK + job.nodes**2 / 8.0
+    return FACE_WORK + nodes**2 / 8.0
 
 
 def batches_of(work: list[float], count: int) -> list[list[int]]:

@@ -34,7 +34,7 @@ def opposite_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int
     for edge, mate in zip(samples.mates.edge.tolist(), samples.mates.mate.tolist()):
         mates.setdefault(edge, set()).add(mate)
     found: dict[int, tuple[int, float]] = {}
-    edges = [set(own.tolist()) for own in samples.edges_of_face]
+    edges = [set(own.tolist()) for own in np.split(samples.face_edges, samples.first_of_face[1:-1])]
     seams = [{c.edge for c in face.coedges if c.seam} for face in model.faces]
     for first in range(len(model.faces)):
         rim = edges[first] - seams[first]

@@ -65,8 +65,8 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     at_vertex = np.zeros(len(mesh.points), bool)
     at_vertex[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
     rows = triangles_of_shared(mesh.triangles, shared_vertices(mesh).view(np.uint8))
-    rows = rows[at_vertex[mesh.triangles[rows]].any(axis=1)]
-    beside = np.flatnonzero(at_vertex[mesh.edge_segments].any(axis=1))
+    rows = rows[_has_any(at_vertex, mesh.triangles[rows])]
+    beside = np.flatnonzero(_has_any(at_vertex, mesh.edge_segments))
     if not len(rows) or not len(beside):
         return []
     count = np.int64(len(mesh.points))
@@ -88,6 +88,14 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
         if set(model.faces_of_edge(one)) & set(model.faces_of_edge(two)) - {face}:
             first, last, corner = (int(corners[row, (free + k) % 3]) for k in range(3))
             found.append(_LoneCorner(face, corner, first, last))
+    return found
+
+
+def _has_any(flags: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """(n,) bool: has any number in rows (n, k) its flag? Column by column, as k is small."""
+    found = flags[rows[:, 0]]
+    for column in rows.T[1:]:
+        found |= flags[column]
     return found
 
 

@@ -56,7 +56,7 @@ def joined_mesh(
         surfaces=tuple(face.surface for face in model.faces),
         turned_faces=turned,
         narrow_faces=np.array([state.mesh.narrow for state in faces], bool),
-        solid_ids=solids[face_ids],
+        solid_ids=solids.take(face_ids, axis=0),
         edge_segments=edges.segments,
         edge_ids=edges.ids,
         edge_parameters=edges.parameters,
@@ -131,7 +131,9 @@ def _edge_segments(nodes: CutEdges, rank: np.ndarray) -> _EdgeSegments:
     segments = rank[nodes.rows.numbers[pairs]]
     ids = np.repeat(np.arange(len(nodes)), np.maximum(count - 1, 0))
     parameters = nodes.rows.t[pairs]
-    there = (segments >= 0).all(axis=1)
+    there = (segments[:, 0] >= 0) & (segments[:, 1] >= 0)
+    if there.all():
+        return _EdgeSegments(segments, ids, parameters)
     return _EdgeSegments(segments[there], ids[there], parameters[there])
 
 

@@ -62,6 +62,46 @@ def test_each_step_keeps_the_triangulation_of_the_plane():
     assert fixed(t) == 2 * len(segments)
 
 
+def flooded(t, edge):
+    """Slow twin of ``grow_inside``; None for a leak."""
+    inside, stack = set(), list(edge // 3)
+    while stack:
+        if (k := stack.pop()) not in inside:
+            inside.add(k)
+            half_edges = np.arange(3 * k, 3 * k + 3)
+            if (t.tri[half_edges] < 0).any():
+                return None
+            stack += (t.adj[half_edges[t.fixed[half_edges] == 0]] // 3).tolist()
+    return sorted(inside)
+
+
+LINE_INSIDE = np.array([(0.3, 0.5), (0.4, 0.5), (0.5, 0.5)])
+
+
+@pytest.mark.parametrize(
+    ("polygons", "line"),
+    [
+        (HOLES, False), ([square(20)], False), ([square(20)], True),
+        ([square(4, 0.2, 0.4)], False),  # most lies outside
+        ([square(20)[::-1]], False),  # the wrong way round
+        (HOLES[:1] + [square(1, 0.1, 0.4)], False),  # an island the wrong way round
+    ],
+)  # fmt: skip
+def test_what_lies_inside_is_all_that_is_reached(polygons, line):
+    nodes, segments = nodes_and_segments(polygons)
+    if line:  # walked there and back
+        there = len(nodes) + np.array([[0, 1], [1, 2]], np.int32)
+        nodes, segments = np.vstack([nodes, LINE_INSIDE]), np.vstack([segments, there])
+    t, background = constant(0.05)
+    made = core.insert_boundary(t, background, nodes, segments, np.empty((0, 2), np.int32))
+    assert made.outcome.status == Recovery.FINISHED
+    expected = flooded(made.t, made.edge)
+    grown = made.grow_inside()
+    assert grown == (Recovery.LEAK if expected is None else Recovery.FINISHED)
+    if expected is not None:
+        assert np.flatnonzero(made.t.region == INSIDE).tolist() == expected
+
+
 def fixed(t):
     """How many half-edges are fixed."""
     return np.count_nonzero(t.fixed.reshape(-1, 3)[live_triangles(t)])

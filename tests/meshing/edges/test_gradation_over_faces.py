@@ -97,6 +97,22 @@ def test_wrong_faces_are_refused():
         )  # fmt: skip
 
 
+def test_threads_cross_the_same_faces_where_most_lower_nothing():
+    rng = np.random.default_rng(12)
+    corners = rng.random((900, 3)) * (90.0, 90.0, 1.0)
+    points, first, ends = network(*(((c, c + rng.random(3)), 9) for c in corners))
+    sizes = np.repeat(np.where(rng.random(900) < 0.03, 0.1, 3.0), 9)
+    order = np.lexsort(np.floor(corners[:, :2] / 10.0).T)
+    faces = [order[k : k + 12] for k in range(0, 900, 10)]  # two edges in common with the next
+    made = []
+    for threads in (1, 2, 7):
+        with allowed_threads(threads):
+            made.append(graded(points, first, ends, sizes, faces))
+    changed = np.array([(made[0] < sizes)[9 * own[0] : 9 * own[0] + 9].any() for own in faces])
+    assert 0.1 < changed.mean() < 0.9
+    assert made[0].tobytes() == made[1].tobytes() == made[2].tobytes()
+
+
 def test_sizes_are_the_same_with_any_number_of_threads():
     rng = np.random.default_rng(11)
     corners = rng.random((700, 3)) * (40.0, 40.0, 1.0)
