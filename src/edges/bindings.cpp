@@ -1,8 +1,10 @@
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "binding/arrays.hpp"
@@ -176,9 +178,11 @@ void bind_gradation(nb::module_& m) {
         "graded_over_faces",
         [](const Points3& points, const Numbers& sizes, const Indices& first,
            const Matrix<std::int64_t, 2>& ends, std::size_t vertices, const Indices& first_of_face,
-           const Indices& edges_of_face, double slope, double least_step) {
+           const Indices& edges_of_face, double slope, double least_step,
+           const std::optional<Numbers>& before) {
             const EdgeNetwork edges = checked_network(points, first, ends, vertices);
             require_rows(sizes.shape(0), points.shape(0), "sizes");
+            if (before) require_rows(before->shape(0), points.shape(0), "before");
             if (first_of_face.shape(0) == 0) throw nb::value_error("first_of_face is empty");
             require_offsets(first_of_face, first_of_face.shape(0) - 1, edges_of_face.shape(0),
                             "first_of_face");
@@ -188,14 +192,18 @@ void bind_gradation(nb::module_& m) {
                 const nb::gil_scoped_release released;
                 found = graded_over_faces(
                     edges, {rows<std::int64_t>(first_of_face), rows<std::int64_t>(edges_of_face)},
-                    rows<double>(sizes), slope, least_step);
+                    rows<double>(sizes), slope, least_step,
+                    before ? rows<double>(*before) : std::span<const double>());
             }
             return view(found);
         },
         nb::arg("points"), nb::arg("sizes"), nb::arg("first"), nb::arg("ends"), nb::arg("vertices"),
         nb::arg("first_of_face"), nb::arg("edges_of_face"), nb::arg("slope"), nb::arg("least_step"),
+        nb::arg("before") = nb::none(),
         "The same where sizes grow straight across faces too.\n\nedges_of_face (k,): each once, "
-        "those of face f from first_of_face[f] to first_of_face[f + 1].");
+        "those of face f from first_of_face[f] to first_of_face[f + 1]. before: what this has "
+        "found "
+        "for sizes none of which was smaller: only what is smaller now grows.");
 }
 
 void bind_cutting(nb::module_& m) {

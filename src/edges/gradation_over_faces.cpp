@@ -95,11 +95,11 @@ class GradationOverFaces {
                        double least_step)
         : edges_(edges), faces_(faces), slope_(slope), along_(edges, slope, least_step) {}
 
-    /// asked: graded along edges.
-    Array<double> sizes(std::span<const double> asked) {
+    /// asked: graded along edges. is_lower: edges from which sizes have not grown yet.
+    Array<double> sizes(std::span<const double> asked, const Array<std::uint8_t>& is_lower) {
         sizes_ = Array<double>(asked);
         const std::size_t count = edges_.ends.size();
-        lowered_.resize(count, 1);
+        for (const std::uint8_t lower : is_lower) lowered_.push_back(lower);
         ranges_.resize(count);
         first_block_.resize(count + 1, 0);
         for (std::size_t e = 0; e < count; ++e) first_block_[e + 1] = first_block_[e] + blocks(e);
@@ -306,19 +306,39 @@ class GradationOverFaces {
     std::vector<std::size_t> first_block_;  // of the edges, and how many there are
 };
 
+/// The edges of which a size is smaller than before; all where none are known.
+Array<std::uint8_t> lowered_edges(const EdgeNetwork& edges, const Array<double>& sizes,
+                                  std::span<const double> before) {
+    Array<std::uint8_t> found(edges.ends.size(), 1);
+    for (std::size_t e = 0; !before.empty() && e < edges.ends.size(); ++e) {
+        const auto first = static_cast<std::size_t>(edges.first[e]);
+        const auto count = static_cast<std::size_t>(edges.first[e + 1]) - first;
+        found.data()[e] =
+            !std::equal(sizes.data() + first, sizes.data() + first + count, before.data() + first);
+    }
+    return found;
+}
+
 }  // namespace
 
 Array<double> graded_over_faces(const EdgeNetwork& edges, const EdgesOfFaces& faces,
-                                std::span<const double> sizes, double slope, double least_step) {
+                                std::span<const double> sizes, double slope, double least_step,
+                                std::span<const double> before) {
     const EdgeGradation along(edges, slope, least_step);
-    Array<double> found = along.graded(sizes);
+    Array<double> asked(sizes);
+    for (std::size_t i = 0; i < before.size(); ++i)
+        asked.data()[i] = std::min(asked.data()[i], before[i]);
+    Array<double> found = along.graded({asked.data(), asked.size()});
+    const Array<std::uint8_t> is_lower = lowered_edges(edges, found, before);
+    if (std::none_of(is_lower.begin(), is_lower.end(), [](std::uint8_t lower) { return lower; }))
+        return found;
     const ThinnedEdges thinned(edges, found);
     const EdgeNetwork few{{thinned.points.data(), thinned.points.size()},
                           {thinned.first.data(), thinned.first.size()},
                           edges.ends,
                           edges.vertices};
     const Array<double> graded = GradationOverFaces(few, faces, slope, least_step)
-                                     .sizes({thinned.sizes.data(), thinned.sizes.size()});
+                                     .sizes({thinned.sizes.data(), thinned.sizes.size()}, is_lower);
     if (std::equal(graded.begin(), graded.end(), thinned.sizes.begin())) return found;
     thinned.lower({graded.data(), graded.size()}, found);
     return along.graded({found.data(), found.size()});

@@ -23,8 +23,10 @@ struct EdgesOfFaces {
     std::span<const std::int64_t> first, edges;
 };
 
-/// least_step: of the way between two samples of one edge.
+/// least_step: of the way between two samples of one edge. before: sizes that this has found from
+/// others, none of them smaller, or none: then sizes grow from what is smaller now alone.
 Array<double> graded_over_faces(const EdgeNetwork& edges, const EdgesOfFaces& faces,
-                                std::span<const double> sizes, double slope, double least_step);
+                                std::span<const double> sizes, double slope, double least_step,
+                                std::span<const double> before = {});
 
 }  // namespace surfmesh

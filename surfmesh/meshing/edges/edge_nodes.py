@@ -8,7 +8,7 @@ What two faces share are these nodes, by number: the mesh is watertight because 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import NamedTuple, overload
 
@@ -72,6 +72,8 @@ class CutEdges(Sequence[EdgeNodes | None]):
     """Of all edges."""
     made: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
     """(e,) the round in which the nodes of each edge were made, 0 for the first."""
+    graded: np.ndarray | None = None
+    """(n,) graded sizes at the samples, before any were lowered to those of mates."""
 
     def __len__(self) -> int:
         return len(self.first) - 1
@@ -109,7 +111,10 @@ def cut_edges(
             else:
                 found = limit(samples.points[along])
             target_size[along] = np.minimum(target_size[along], found)
-    size, graded = graded_with_mates(model, samples, target_size, sizing)
+    found = graded_with_mates(
+        model, samples, target_size, sizing, before.graded if before else None
+    )
+    size, graded = found.sizes, found.graded
     fewest = _fewest(model, samples)
     mated = _mated(model, samples, size, fewest, sizing.limit)
     cuts = _cut(model, samples, size, fewest, mated, sizing.limit)
@@ -118,43 +123,75 @@ def cut_edges(
         cuts.sizes[at] = np.minimum(
             cuts.sizes[at], np.interp(cuts.t[at], samples.t[own], graded[own])
         )
-    return _numbered(model, cuts, before)
+    return replace(_numbered(model, cuts, before), graded=found.first_graded)
+
+
+class GradedSizes(NamedTuple):
+    """Sizes (n,) at the samples of edges."""
+
+    sizes: np.ndarray
+    """That edges are cut by."""
+    graded: np.ndarray
+    """Those that neighbours hear of: they differ on hidden edges."""
+    first_graded: np.ndarray
+    """Before any were lowered to those of mates."""
 
 
 def graded_with_mates(
-    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
-) -> tuple[np.ndarray, np.ndarray]:
-    """Sizes (n,) at the samples that edges are cut by, and graded ones: graded, and lowered to
-    those of mates, by turns. They differ on hidden edges, of whose sizes no neighbour hears.
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing,
+    before: np.ndarray | None = None,
+) -> GradedSizes:  # fmt: skip
+    """Sizes at the samples: graded, and lowered to those of mates, by turns.
 
     Once where sizes depend on the direction: there edges do not hear of each other across faces.
+    before: the first graded sizes of an earlier round, in which no target size was smaller.
     """
-    grade = _graded_by_direction if samples.is_anisotropic else _graded
-    if samples.mates:
-        target_size = lowered_to_mates(samples.mates, samples.t, samples.first, target_size)
-    for turns_left in reversed(range(1 if samples.is_anisotropic else MATED_TURNS)):
-        graded = grade(model, samples, target_size, sizing)
-        if not samples.mates and not samples.hidden.any():
-            return graded, graded
-        size = np.where(samples.is_hidden, target_size, graded)
-        if samples.mates:
-            size = lowered_to_mates(samples.mates, samples.t, samples.first, size)
+    if samples.is_anisotropic:
+        return _graded_once(model, samples, target_size, sizing)
+    target_size = _lowered(samples, target_size)
+    first = graded = _graded(model, samples, target_size, sizing, before)
+    if not samples.mates and not samples.hidden.any():
+        return GradedSizes(graded, graded, first)
+    for turns_left in reversed(range(MATED_TURNS)):
+        size = _lowered(samples, np.where(samples.is_hidden, target_size, graded))
         if not turns_left or (size >= LEAST_CHANGE * graded).all():
             break
         target_size = np.minimum(target_size, size)
-    return size, graded
+        graded = _graded(model, samples, target_size, sizing, graded)
+    return GradedSizes(size, graded, first)
+
+
+def _graded_once(
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
+) -> GradedSizes:
+    """The same where sizes depend on the direction."""
+    target_size = _lowered(samples, target_size)
+    graded = _graded_by_direction(model, samples, target_size, sizing)
+    size = _lowered(samples, np.where(samples.is_hidden, target_size, graded))
+    return GradedSizes(size, graded, graded)
+
+
+def _lowered(samples: EdgeSamples, sizes: np.ndarray) -> np.ndarray:
+    """Sizes (n,) at the samples, lowered to those of mates."""
+    if not samples.mates:
+        return sizes
+    return np.asarray(lowered_to_mates(samples.mates, samples.t, samples.first, sizes))
 
 
 def _graded(
-    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
-) -> np.ndarray:
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing,
+    before: np.ndarray | None,
+) -> np.ndarray:  # fmt: skip
     """Sizes (n,) at the samples: the target size of any sample plus the slope times the way, along
-    edges and straight across faces."""
+    edges and straight across faces.
+
+    before: what this has found for target sizes of which none was smaller.
+    """
     arrays = model_arrays(model)
     first_of_face, edges_of_face = samples.edges_of_wide_faces
     return graded_over_faces(
         samples.points, target_size, samples.first, arrays.mesh_ends, len(arrays.corners),
-        first_of_face, edges_of_face, sizing.gradient, LEAST_STEP * model.diagonal,
+        first_of_face, edges_of_face, sizing.gradient, LEAST_STEP * model.diagonal, before,
     )  # fmt: skip
 
 

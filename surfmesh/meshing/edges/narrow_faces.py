@@ -39,6 +39,7 @@ ROUND = 1.1 * pi
 SURELY = 1.0 + 1e-9
 """For sums that are rounded in another order."""
 
+
 def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
     """What is narrow on a face with these size requests; points (n, 3): samples of its edges."""
     if sizing.gap is not None:

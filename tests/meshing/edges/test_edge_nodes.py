@@ -154,7 +154,7 @@ def test_sizes_lowered_to_those_of_a_mate_grow_from_there():
     runs = MateRuns(one, one + mate, np.array([0, 17]), half, half, np.full(17, 0.1))
     samples = replace(samples, mates=runs)
     samples.target_size[samples.of(mate)] = 0.5
-    sizes, graded = graded_with_mates(model, samples, samples.target_size, wanted.base)
+    sizes, graded, _ = graded_with_mates(model, samples, samples.target_size, wanted.base)
     own = samples.of(0)
     step = np.linalg.norm(np.diff(samples.points[own], axis=0), axis=1)
     assert np.allclose(sizes[own][samples.t[own] <= 0.5], 0.5)
