@@ -146,6 +146,8 @@ class _Search:
         pairs = [pair for k, pair in enumerate(pairwise(self._line)) if above[k] != above[k + 1]]
         one, other = min(pairs, key=lambda pair: self._off(pair[0]) + self._off(pair[1]))
         step = math.log(other.scale / one.scale)
+        if min(one.found, other.found) <= FAILED and step >= NARROW_STEP:
+            return math.sqrt(one.scale * other.scale)
         if step < NARROW_STEP or self._between >= TRIALS_BETWEEN:
             return self._with_sizes_alone(one, other)
         part = math.log(one.found / self.wanted) / math.log(one.found / other.found)
@@ -205,13 +207,12 @@ class _Search:
 
     def _with_sizes_alone(self, one: _Trial, other: _Trial) -> float | None:
         """Where the count jumps from one to the other: the chord stays at that of the fewer."""
-        if self._chord is not None or self.nearest < math.log1p(PROMISED):
-            counts = one.found, other.found
-            self._ended = f"the number jumps there, from {max(counts):,.0f} to {min(counts):,.0f}"
-            return None
-        fewer = min(one, other, key=lambda trial: trial.found)
+        fewer, more = sorted((one, other), key=lambda trial: trial.found)
         if fewer.found <= FAILED:
             self._ended = "coarser sizes give no mesh"
+            return None
+        if self._chord is not None or self.nearest < math.log1p(PROMISED):
+            self._ended = f"the number jumps there, from {more.found:,.0f} to {fewer.found:,.0f}"
             return None
         self._chord, self._line, self._between = fewer.scale, [fewer], 0
         return self._finer()

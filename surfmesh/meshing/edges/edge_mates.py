@@ -16,7 +16,7 @@ import numpy as np
 
 from surfmesh._core.space import edge_gaps, edge_sags
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, MateRun
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
 from surfmesh.meshing.edges.polygon_lengths import lengths_along
@@ -63,34 +63,24 @@ def mate_runs(model: CadModel, samples: EdgeSamples) -> list[MateRun]:
 
 def _meeting_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
     """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
-    arrays = model_arrays(model)
+    arrays, points, first = model_arrays(model), samples.points, samples.first
     looked_at = samples.narrow_width > 0.0
     looked_at[list(samples.narrow)] = False
-    loop = np.repeat(np.arange(len(arrays.first_of_loop) - 1), np.diff(arrays.first_of_loop))
-    real = ~arrays.collapsed[arrays.coedge_edge] & looked_at[arrays.coedge_face]
-    one = np.flatnonzero(real)
-    if not len(one):
-        return []
-    starts = np.flatnonzero(np.r_[True, np.diff(loop[one]) != 0])
-    following = np.r_[np.arange(1, len(one)), 0]
-    following[np.r_[starts[1:], len(one)] - 1] = starts  # the last one of a loop: its first
-    other = one[following]
-    edge = arrays.coedge_edge
-    low, high = samples.first[edge], samples.first[edge + 1] - 1
-    back = arrays.coedge_reversed
-    at_start = np.where(back, high, low), np.where(back, high - 1, low + 1)  # of walking
-    at_end = np.where(back, low, high), np.where(back, low + 1, high - 1)
-    points = samples.points
-    into = points[at_end[1][one]] - points[at_end[0][one]]
-    out = points[at_start[1][other]] - points[at_start[0][other]]
+    one, other = arrays.successions
+    if not looked_at.all():
+        of_them = looked_at[arrays.coedge_face[one]]
+        one, other = one[of_them], other[of_them]
+    edge, back = arrays.coedge_edge, arrays.coedge_reversed
+    a, b = edge[one], edge[other]
+    end = np.where(back[one], first[a], first[a + 1] - 1)  # of walking
+    start = np.where(back[other], first[b + 1] - 1, first[b])
+    into = points[np.where(back[one], end + 1, end - 1)] - points[end]
+    out = points[np.where(back[other], start - 1, start + 1)] - points[start]
     lengths = np.linalg.norm(into, axis=1) * np.linalg.norm(out, axis=1)
-    acute = ((into * out).sum(axis=1) > ACUTE * lengths) & (edge[one] != edge[other])
     found = []
-    for c, d in zip(
-        one[acute & (edge[one] != edge[other])], other[acute & (edge[one] != edge[other])]
-    ):
-        face, a, b = int(arrays.coedge_face[c]), int(edge[c]), int(edge[d])
-        found += [(face, a, b), (face, b, a)]
+    for row in np.flatnonzero((into * out).sum(axis=1) > ACUTE * lengths).tolist():
+        face, own, mate = int(arrays.coedge_face[one[row]]), int(a[row]), int(b[row])
+        found += [(face, own, mate), (face, mate, own)]
     return found
 
 
@@ -99,17 +89,17 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     points, first = samples.points, samples.first
     if len(points) < 3:
         return []
-    ends, sag = model_arrays(model).mesh_ends, edge_sags(points, first)
-    several = np.array([len(own) > 1 for own in samples.edges_of_face], bool)
+    arrays, sag = model_arrays(model), edge_sags(points, first)
+    ends, (first_edge, edges) = arrays.mesh_ends, arrays.edges_of_faces
+    several = np.diff(first_edge) > 1
     looked_at = np.flatnonzero(samples.is_wide & several & (samples.narrow_width > 0.0))
     widths, seen = np.unique(samples.narrow_width[looked_at], return_index=True)
     count = np.diff(first)
     found = []
     for width in widths[np.argsort(seen)].tolist():  # in the order of their first faces
-        faces = looked_at[samples.narrow_width[looked_at] == width].tolist()
-        edges = [samples.edges_of_face[face] for face in faces]
-        start = offsets(np.array([len(own) for own in edges], np.int64))
-        in_a_row = np.concatenate(edges)
+        faces = looked_at[samples.narrow_width[looked_at] == width]
+        in_a_row = edges[rows_of(first_edge, faces)]
+        start = offsets(np.diff(first_edge)[faces])
         reach = np.repeat(width + sag + sag.max(), count)
         gap, boxes = edge_gaps(points, reach, first, ends, in_a_row, start)
         near = np.zeros(len(model.edges), bool)
@@ -117,7 +107,8 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
         low, high = boxes[:, :3], boxes[:, 3:]
         some = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
         for k in np.flatnonzero(some).tolist():
-            face, own = faces[k], edges[k][near[edges[k]]]
+            face, own = int(faces[k]), in_a_row[start[k] : start[k + 1]]
+            own = own[near[own]]
             for a in own.tolist():
                 apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)
                 close = np.linalg.norm(apart, axis=1) <= width + sag[a] + sag[own]

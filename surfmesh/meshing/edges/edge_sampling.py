@@ -11,7 +11,7 @@ import numpy as np
 
 from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
-from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_mates import mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -25,8 +25,11 @@ from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
 
-STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
-_STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
+FEW_SAMPLES, STRAIGHT_SAMPLES, CURVED_SAMPLES = 17, 33, 129
+_FEW, _STRAIGHT, _CURVED = (
+    np.linspace(0.0, 1.0, n) for n in (FEW_SAMPLES, STRAIGHT_SAMPLES, CURVED_SAMPLES)
+)
+_OF_KIND = {"line": _FEW, "circle": _STRAIGHT}
 
 LONGER, LEAST_NARROW = 3.0, 0.3
 """Edges narrower than NARROWEST apart ask for so many times their distance, not below this
@@ -47,7 +50,8 @@ HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> EdgeSamples:
     """Samples of all edges. Raises ``SizingError`` for laws that give no sizes.
 
-    few: circles have as many as straight edges: enough for an estimate, as they bend evenly.
+    few: circles have as many as else straight edges, these half as many: enough for an estimate, as
+    they bend evenly.
     """
     rules = EdgeRules(model, sizing)
     arrays = rules.arrays
@@ -66,7 +70,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         courses.tangent if sizing.is_anisotropic else np.empty((0, 3)),
         total_curvature,
         *rules.sags(),
-        _has_twin(arrays, total_curvature),
+        arrays.has_twin & (total_curvature > 0.0),
         arrays.vertex,
         arrays.edges_of_face,
         np.zeros(len(model.faces)),
@@ -85,11 +89,10 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
 def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarray]:
     """Of the parameter ranges of the edges, where they are sampled."""
     wanted = rules.wanted
-    even = rules.arrays.straight[edges].tolist()
+    grids = [_STRAIGHT if even else _CURVED for even in rules.arrays.straight[edges].tolist()]
     if few:
         curves = [rules.model.edges[edge].curve for edge in edges.tolist()]
-        even = [getattr(curve, "kind", "") in ("line", "circle") for curve in curves]
-    grids = [_STRAIGHT if bends_evenly else _CURVED for bends_evenly in even]
+        grids = [_OF_KIND.get(getattr(curve, "kind", ""), _CURVED) for curve in curves]
     if not any(
         own.has_law for own in (wanted.base, *wanted.faces.values(), *wanted.edges.values())
     ):
@@ -132,17 +135,6 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
             size = rules.target_size(courses, samples.narrow)
         samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
     samples.mates.extend(mate_runs(model, samples))
-
-
-def _has_twin(arrays: ModelArrays, total_curvature: np.ndarray) -> np.ndarray:
-    """(e,) bool; see ``EdgeSamples``."""
-    there = ~arrays.collapsed
-    ends = np.sort(arrays.mesh_ends[there], axis=1)
-    code = ends @ np.array([len(arrays.corners), 1])
-    _, group, count = np.unique(code, return_inverse=True, return_counts=True)
-    found = np.zeros(len(there), bool)
-    found[there] = count[group.reshape(-1)] > 1
-    return found & (total_curvature > 0.0)
 
 
 def _with_hidden(edge: CadEdge, t: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
@@ -190,7 +182,8 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
     """
     if not len(samples.points):
         return
-    ends = model_arrays(model).mesh_ends
+    arrays = model_arrays(model)
+    first_edge, edges = arrays.edges_of_faces
     by_sizes: dict[tuple[float | None, float, float], list[int]] = {}
     wide = samples.is_wide  # across others is nothing to be meshed, nor beside the end of one side
     for own, numbers in sizing.sets(len(model.faces)):
@@ -203,15 +196,15 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
     narrowest = NARROWEST * model.diagonal
     asked = samples.target_size
     for (count, least, narrow), faces in by_sizes.items():
-        edges = [samples.edges_of_face[face] for face in faces]
-        first = np.zeros(len(faces) + 1, np.int64)
-        np.cumsum([len(own) for own in edges], out=first[1:])
+        of = np.array(faces, np.int64)
+        first = offsets(np.diff(first_edge)[of])
         if not first[-1]:
             continue
         fraction = 1.0 if count is None else size_across(1.0, count, slope)
         gap, _ = edge_gaps(
-            samples.points, asked / fraction, samples.first, ends, np.concatenate(edges), first
-        )
+            samples.points, asked / fraction, samples.first, arrays.mesh_ends,
+            edges[rows_of(first_edge, of)], first,
+        )  # fmt: skip
         ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked)
         rows = np.flatnonzero((gap >= ignored) & np.isfinite(gap))
         sliver = np.minimum(LONGER * gap[rows], narrowest)
