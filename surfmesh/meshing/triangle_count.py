@@ -41,9 +41,8 @@ FEW = 20_000
 LARGEST_STEP = 4.0
 """Factor on the scale of one step, at most."""
 
-COARSEST = 16.0
-"""The largest scale: the chord is a quarter of the diagonal then, and ``max_size`` more than all of
-it. Larger ones mean nothing."""
+COARSEST = 32.0
+"""The largest scale: the chord is the diagonal then. Larger ones mean nothing."""
 
 DEAF, DEAF_STEP, WIDE_STEP = 0.005, 2.0, 1.5
 """Where the count changes by less, relatively, in one step the next one is so large at least; and
