@@ -34,7 +34,13 @@ from surfmesh.meshing.estimate.model_estimate import (
     require_model_within,
 )
 from surfmesh.meshing.estimate.trial_faces import ratios
-from surfmesh.meshing.estimate.trial_mesh import FEW, WHOLE, WHOLE_STRETCHED, counts_within_budget
+from surfmesh.meshing.estimate.trial_mesh import (
+    FEW,
+    LESS_STRETCHED,
+    WHOLE,
+    WHOLE_STRETCHED,
+    counts_within_budget,
+)
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import edge_refinement
@@ -308,7 +314,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     sizings = [state.sizing for state in before.faces]
-    small, foreseen = before.bound <= (whole if stretched else FEW), False
+    small, foreseen = before.bound <= (LESS_STRETCHED * whole if stretched else FEW), False
     counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.errors import SizingError
-from surfmesh.meshing.triangle_count import sizing_for_count
+from surfmesh.errors import MeshingError, SizingError
+from surfmesh.meshing.triangle_count import COARSEST, mesh_with_count, sizing_for_count
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_stretched_sizes():
 
 def test_too_few_are_said():
     mesh = sm.mesh(cq.Workplane().box(1, 1, 1), triangles=4)
-    assert any("4 were asked for" in warning for warning in mesh.warnings)
+    assert mesh.warnings[-1].startswith("12 triangles, where 4 were asked for: the coarsest sizes")
 
 
 def test_estimate_and_explain_know_it():
@@ -60,11 +60,69 @@ def test_search_meets_any_power(wanted, factor, power):
     def count(sizing):
         return factor * (sizing.max_size / 0.1) ** -power
 
-    sizing, scale = sizing_for_count(sm.Sizing(triangles=wanted), 1.0, count)
+    sizing, scales = sizing_for_count(sm.Sizing(triangles=wanted), 1.0, count)
     assert sizing.triangles is None
-    assert sizing.chord == pytest.approx(1e-3 * scale**2)
-    reached = count(sizing)
-    assert reached == pytest.approx(wanted, rel=0.021)
+    assert sizing.chord == pytest.approx(1e-3 * scales.chord**2)
+    assert sizing.max_size == pytest.approx(0.1 * scales.size)
+    if count(sm.Sizing(max_size=0.1 * COARSEST)) > wanted:
+        assert scales.size == COARSEST
+    else:
+        assert count(sizing) == pytest.approx(wanted, rel=0.021)
+
+
+@given(st.integers(500, 2900), st.floats(0.002, 0.2), st.floats(0.05, 0.5))
+@settings(deadline=None)
+def test_search_meets_what_a_jump_leaves_out(wanted, jump, rest):
+    """Details vanish at a chord, and with them most triangles: sizes alone make up for them."""
+
+    def count(sizing):
+        details = 3000.0 if sizing.chord < jump else 0.0
+        return details + rest * 10.0 / sizing.max_size**2
+
+    sizing, _ = sizing_for_count(sm.Sizing(triangles=wanted), 1.0, count)
+    assert count(sizing) == pytest.approx(wanted, rel=0.05)
+
+
+def test_sizes_that_give_no_mesh_are_not_the_end():
+    def mesh(sizing):
+        if sizing.chord > 0.05:
+            raise MeshingError("too coarse")
+        return sm.mesh(sm.load("torus"), sizing.replaced(max_size=None))
+
+    estimated = lambda sizing: 1.0 / sizing.chord  # noqa: E731
+    made = mesh_with_count(sm.Sizing(triangles=10), 1.0, estimated, mesh)
+    assert "coarser sizes give no mesh" in made.warnings[-1]
+    with pytest.raises(MeshingError, match="never"):
+        mesh_with_count(sm.Sizing(triangles=10), 1.0, estimated, _never)
+
+
+def _never(sizing):
+    raise MeshingError("never")
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [("klein", 5000), ("trefoil", 1000), ("ellipsoid", 200), ("letter_a", 5000), ("spring", 5000)],
+)
+def test_counts_that_stand_still_or_jump_are_met(name, wanted):
+    mesh = sm.mesh(sm.load(name), triangles=wanted)
+    assert len(mesh.triangles) == pytest.approx(wanted, rel=0.05)
+    assert not any("asked for" in warning for warning in mesh.warnings)
+
+
+def test_flat_faces_are_met_with_stretched_sizes():
+    mesh = sm.mesh(cq.Workplane().box(4, 3, 1), triangles=2000, anisotropy=5.0)
+    assert len(mesh.triangles) == pytest.approx(2000, rel=0.05)
+
+
+def test_limit_holds_where_a_trial_goes_beyond():
+    mesh = sm.mesh(sm.load("two_peaks"), triangles=2000, limit=2000)
+    assert 1900 <= len(mesh.triangles) <= 2000
+
+
+def test_least_size_is_named_as_the_reason():
+    mesh = sm.mesh(sm.load("torus"), triangles=5000, min_size=0.5)
+    assert "no finer sizes give more" in mesh.warnings[-1]
 
 
 def test_it_excludes_other_sizes():

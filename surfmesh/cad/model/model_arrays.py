@@ -53,6 +53,8 @@ class ModelArrays:
     """(f + 1,) int64: coedges of each face."""
     first_of_loop: np.ndarray
     """(l + 1,) int64: coedges of each loop of all faces."""
+    first_loop_of_face: np.ndarray
+    """(f + 1,) int64: loops of each face."""
     area: np.ndarray
     """(f,) of the faces, model units squared."""
 
@@ -65,6 +67,19 @@ class ModelArrays:
         both = np.unique(self.coedge_face[there] * count + self.coedge_edge[there])
         first = np.searchsorted(both, np.arange(len(self.area) + 1) * count)
         return first, both % max(count, 1)
+
+    @cached_property
+    def successions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Coedges (k,) of edges that are not collapsed, and those that follow them (k,) in their
+        loops, past collapsed ones; not the ones of an edge that follows itself."""
+        loop = np.repeat(np.arange(len(self.first_of_loop) - 1), np.diff(self.first_of_loop))
+        one = np.flatnonzero(~self.collapsed[self.coedge_edge])
+        starts = np.flatnonzero(np.r_[len(one) > 0, np.diff(loop[one]) != 0])
+        following = np.arange(1, len(one) + 1)
+        following[np.r_[starts[1:], len(one)][: len(starts)] - 1] = starts  # of the last one
+        other = one[following]
+        apart = self.coedge_edge[one] != self.coedge_edge[other]
+        return one[apart], other[apart]
 
     @classmethod
     def of(cls, model: CadModel) -> ModelArrays:
@@ -87,13 +102,31 @@ class ModelArrays:
             np.repeat(np.arange(len(faces)), of_face),
             offsets(of_face),
             offsets(np.array([len(loop) for loop in loops], np.int64)),
+            offsets(np.array([len(face.loops) for face in faces], np.int64)),
             np.array([face.area for face in faces], float),
         )
 
-    @property
+    @cached_property
     def mesh_ends(self) -> np.ndarray:
         """(e, 2) int64, the ends of the edges by the numbers that vertices have in a mesh."""
         return self.vertex[self.ends]
+
+    @cached_property
+    def has_twin(self) -> np.ndarray:
+        """(e,) bool: another edge joins the same two vertices of a mesh."""
+        there = ~self.collapsed
+        ends = np.sort(self.mesh_ends[there], axis=1)
+        code = ends @ np.array([len(self.corners), 1])
+        _, group, count = np.unique(code, return_inverse=True, return_counts=True)
+        found = np.zeros(len(there), bool)
+        found[there] = count[group.reshape(-1)] > 1
+        return found
+
+    @cached_property
+    def coedges_of_edges(self) -> tuple[np.ndarray, np.ndarray]:
+        """(e + 1,) where the coedges of each edge begin, and these (c,), edge after edge."""
+        count = np.bincount(self.coedge_edge, minlength=len(self.length))
+        return offsets(count), np.argsort(self.coedge_edge, kind="stable")
 
     @cached_property
     def pcurves(self) -> CurvePieces:

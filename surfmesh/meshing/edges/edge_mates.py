@@ -98,34 +98,24 @@ def _joined(one: MateRuns, other: MateRuns) -> MateRuns:
 
 def _meeting_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
     """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
-    arrays = model_arrays(model)
+    arrays, points, first = model_arrays(model), samples.points, samples.first
     looked_at = samples.narrow_width > 0.0
     looked_at[list(samples.narrow)] = False
-    loop = np.repeat(np.arange(len(arrays.first_of_loop) - 1), np.diff(arrays.first_of_loop))
-    real = ~arrays.collapsed[arrays.coedge_edge] & looked_at[arrays.coedge_face]
-    one = np.flatnonzero(real)
-    if not len(one):
-        return []
-    starts = np.flatnonzero(np.r_[True, np.diff(loop[one]) != 0])
-    following = np.r_[np.arange(1, len(one)), 0]
-    following[np.r_[starts[1:], len(one)] - 1] = starts  # the last one of a loop: its first
-    other = one[following]
-    edge = arrays.coedge_edge
-    low, high = samples.first[edge], samples.first[edge + 1] - 1
-    back = arrays.coedge_reversed
-    at_start = np.where(back, high, low), np.where(back, high - 1, low + 1)  # of walking
-    at_end = np.where(back, low, high), np.where(back, low + 1, high - 1)
-    points = samples.points
-    into = points[at_end[1][one]] - points[at_end[0][one]]
-    out = points[at_start[1][other]] - points[at_start[0][other]]
+    one, other = arrays.successions
+    if not looked_at.all():
+        of_them = looked_at[arrays.coedge_face[one]]
+        one, other = one[of_them], other[of_them]
+    edge, back = arrays.coedge_edge, arrays.coedge_reversed
+    a, b = edge[one], edge[other]
+    end = np.where(back[one], first[a], first[a + 1] - 1)  # of walking
+    start = np.where(back[other], first[b + 1] - 1, first[b])
+    into = points[np.where(back[one], end + 1, end - 1)] - points[end]
+    out = points[np.where(back[other], start - 1, start + 1)] - points[start]
     lengths = np.linalg.norm(into, axis=1) * np.linalg.norm(out, axis=1)
-    acute = ((into * out).sum(axis=1) > ACUTE * lengths) & (edge[one] != edge[other])
     found = []
-    for c, d in zip(
-        one[acute & (edge[one] != edge[other])], other[acute & (edge[one] != edge[other])]
-    ):
-        face, a, b = int(arrays.coedge_face[c]), int(edge[c]), int(edge[d])
-        found += [(face, a, b), (face, b, a)]
+    for row in np.flatnonzero((into * out).sum(axis=1) > ACUTE * lengths).tolist():
+        face, own, mate = int(arrays.coedge_face[one[row]]), int(a[row]), int(b[row])
+        found += [(face, own, mate), (face, mate, own)]
     return found
 
 

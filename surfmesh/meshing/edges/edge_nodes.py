@@ -238,7 +238,7 @@ def _mated(
 
 
 def _chords(samples: EdgeSamples) -> np.ndarray:
-    """What segments of each edge (e,) may sag by at most, infinite where they are not cut for it."""
+    """What segments of each edge (e,) may sag by, infinite where they are not cut for it."""
     return np.where(samples.tiny, np.inf, samples.chord)
 
 

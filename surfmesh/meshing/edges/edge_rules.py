@@ -124,9 +124,7 @@ class EdgeRules:
 
     def __post_init__(self) -> None:
         self.arrays = model_arrays(self.model)
-        edge = self.arrays.coedge_edge
-        self._coedges_of = np.argsort(edge, kind="stable")
-        self._first_coedge = offsets(np.bincount(edge, minlength=len(self.model.edges)))
+        self._first_coedge, self._coedges_of = self.arrays.coedges_of_edges
 
     def coedges_of(self, edge: int) -> np.ndarray:
         """The coedges of an edge."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
-from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.meshing.edges.edge_mates import NO_RUNS, mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -22,8 +22,11 @@ from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
 
-STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
-_STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
+FEW_SAMPLES, STRAIGHT_SAMPLES, CURVED_SAMPLES = 17, 33, 129
+_FEW, _STRAIGHT, _CURVED = (
+    np.linspace(0.0, 1.0, n) for n in (FEW_SAMPLES, STRAIGHT_SAMPLES, CURVED_SAMPLES)
+)
+_OF_KIND = {"line": _FEW, "circle": _STRAIGHT}
 
 LONGER, LEAST_NARROW = 3.0, 0.3
 """Edges narrower than NARROWEST apart ask for so many times their distance, not below this
@@ -44,7 +47,8 @@ HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> EdgeSamples:
     """Samples of all edges. Raises ``SizingError`` for laws that give no sizes.
 
-    few: circles have as many as straight edges: enough for an estimate, as they bend evenly.
+    few: circles have as many as else straight edges, these half as many: enough for an estimate, as
+    they bend evenly.
     """
     rules = EdgeRules(model, sizing)
     arrays = rules.arrays
@@ -63,7 +67,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         courses.tangent if sizing.is_anisotropic else np.empty((0, 3)),
         total_curvature,
         *rules.sags(),
-        _has_twin(arrays, total_curvature),
+        arrays.has_twin & (total_curvature > 0.0),
         arrays.vertex,
         *arrays.edges_of_faces,
         np.zeros(len(model.faces)),
@@ -83,11 +87,10 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
 def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarray]:
     """Of the parameter ranges of the edges, where they are sampled."""
     wanted = rules.wanted
-    even = rules.arrays.straight[edges].tolist()
+    grids = [_STRAIGHT if even else _CURVED for even in rules.arrays.straight[edges].tolist()]
     if few:
         curves = [rules.model.edges[edge].curve for edge in edges.tolist()]
-        even = [getattr(curve, "kind", "") in ("line", "circle") for curve in curves]
-    grids = [_STRAIGHT if bends_evenly else _CURVED for bends_evenly in even]
+        grids = [_OF_KIND.get(getattr(curve, "kind", ""), _CURVED) for curve in curves]
     if not any(
         own.has_law for own in (wanted.base, *wanted.faces.values(), *wanted.edges.values())
     ):
@@ -125,17 +128,6 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
             courses = Courses.of(arrays, np.array([edge]), limits, samples.t[at])
             size = rules.target_size(courses, samples.narrow)
         samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
-
-
-def _has_twin(arrays: ModelArrays, total_curvature: np.ndarray) -> np.ndarray:
-    """(e,) bool; see ``EdgeSamples``."""
-    there = ~arrays.collapsed
-    ends = np.sort(arrays.mesh_ends[there], axis=1)
-    code = ends @ np.array([len(arrays.corners), 1])
-    _, group, count = np.unique(code, return_inverse=True, return_counts=True)
-    found = np.zeros(len(there), bool)
-    found[there] = count[group.reshape(-1)] > 1
-    return found & (total_curvature > 0.0)
 
 
 def _with_hidden(edge: CadEdge, t: np.ndarray, sizings: list[Sizing]) -> np.ndarray:

@@ -17,7 +17,7 @@ from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
-from surfmesh.meshing.estimate.face_counts import Alike, Outlines, counts_of_faces
+from surfmesh.meshing.estimate.face_counts import Alike, counts_of_faces, fewest_of
 from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
@@ -81,7 +81,7 @@ def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     for number, (job, strip) in enumerate(zip(jobs, strips)):
         if strip is None and np.isnan(areas[number]):
             areas[number] = metric_area(fields(job)[1], job.rings)
-    counts = combined(TRIANGLES * areas, Outlines.of(jobs).fewest)
+    counts = combined(TRIANGLES * areas, fewest_of(jobs))
     for number, strip in enumerate(strips):
         if strip is not None:
             counts[number] = len(strip.triangles)
@@ -165,19 +165,22 @@ class Bends(NamedTuple):
     """(f,) the smallest size, infinite where curvature asks for none."""
     turn: np.ndarray
     """(f,) radians that the surface turns by along an edge, at most."""
+    rules: dict[int, SizeRules]
+    """By the ``id`` of each set of sizes."""
 
     @classmethod
     def of(cls, model: CadModel, sizings: Sequence[Sizing]) -> Self:
         """sizings: of the faces."""
-        known = _curvatures(model)
+        known, rules = _curvatures(model), dict[int, SizeRules]()
         least, turn = np.full(len(sizings), np.inf), np.zeros(len(sizings))
         largest = np.where(known.regular, np.maximum(np.abs(known.k1), np.abs(known.k2)), 0.0)
         own = np.array([id(sizings[face]) for face in known.faces.tolist()], int)
         for sizing in {id(sizing): sizing for sizing in sizings}.values():
+            allowed = rules[id(sizing)] = SizeRules.of(sizing, model.diagonal)
             which = np.flatnonzero(own == id(sizing))
             if not len(which):
                 continue
-            rows, allowed = rows_of(known.first, which), SizeRules.of(sizing, model.diagonal)
+            rows = rows_of(known.first, which)
             start = offsets(known.first[which + 1] - known.first[which])[:-1]
             sizes = np.full(len(rows), allowed.clamp[1])
             if allowed.follows_curvature:
@@ -185,7 +188,7 @@ class Bends(NamedTuple):
                 sizes = np.where(known.regular[rows], found, sizes)
                 least[known.faces[which]] = np.minimum.reduceat(sizes, start)
             turn[known.faces[which]] = np.maximum.reduceat(sizes * largest[rows], start)
-        return cls(least, turn)
+        return cls(least, turn, rules)
 
 
 def quick_bound(
@@ -204,7 +207,7 @@ def quick_bound(
     for sizing in {id(sizing): sizing for sizing in sizings}.values():
         if sizing.has_law:
             return np.inf
-        floor, top = SizeRules.of(sizing, model.diagonal).clamp
+        floor, top = bends.rules[id(sizing)].clamp
         limits[id(sizing)] = floor, min([top, *(getattr(s, "size", top) for s in sizing.sources)])
     floors, tops = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
     smallest = np.maximum(np.minimum(smallest, tops), floors)

@@ -106,11 +106,11 @@ def face_jobs(
     known, arrays = limits or {}, model_arrays(model)
     numbers = np.array([state.number for state in faces], np.int64)
     which = rows_of(arrays.first_of_face, numbers)
-    coedges = [len(loop) for state in faces for loop in state.face.loops]
-    loops = [len(state.face.loops) for state in faces]
+    coedges = np.diff(arrays.first_of_loop)[rows_of(arrays.first_loop_of_face, numbers)]
+    loops = np.diff(arrays.first_loop_of_face)[numbers]
     boundaries = face_boundaries(
         *_nodes(model, which, nodes), *_uses(model, which, nodes),
-        np.array(coedges, np.int32), np.array(loops, np.int32),
+        coedges.astype(np.int32), loops.astype(np.int32),
     )  # fmt: skip
     return [
         FaceJob(

@@ -17,6 +17,7 @@ from surfmesh.sizing.field.boundary_field import (
 )
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 
 def inward_face(job: FaceJob, look_for_tubes: bool = False) -> InwardFace | None:
@@ -74,6 +75,7 @@ class _Sizes:
         """Does the core know all sizes: those of edges and one that bounds them?"""
         self._manners: dict[tuple[bool, bool], FaceManner] = {}
         self._largest: dict[tuple[float | None, bool], tuple[float, float | None]] = {}
+        self._rules: dict[float, SizeRules] = {}
 
     def manner(self, optimise: bool, on_lattice: bool) -> FaceManner:
         """How a face is meshed in the first round."""
@@ -91,9 +93,15 @@ class _Sizes:
         reach, found = self._largest.get(key, (0.0, None))
         if not extent < reach:
             reach = 2.0 ** (math.frexp(extent)[1] + 1)  # the diagonal is no longer
-            found = largest_within(self.sizing, radius, reach, on_lattice)
+            found = largest_within(self.sizing, radius, reach, on_lattice, self._rules_within)
             self._largest[key] = reach, found
         return found
+
+    def _rules_within(self, sizing: Sizing, diagonal: float) -> SizeRules:
+        """Made once for each power of two."""
+        if diagonal not in self._rules:
+            self._rules[diagonal] = SizeRules.of(sizing, diagonal)
+        return self._rules[diagonal]
 
 
 def manner_of(job: FaceJob, field: SizeField) -> FaceManner:

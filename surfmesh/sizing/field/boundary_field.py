@@ -5,6 +5,7 @@ each point of known size the sizes grow with the distance. See src/fields/source
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -136,11 +137,13 @@ def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
 
 
 def largest_within(
-    sizing: Sizing, radius: float | None, reach: float, on_lattice: bool = False
-) -> float | None:
+    sizing: Sizing, radius: float | None, reach: float, on_lattice: bool = False,
+    rules_of: Callable[[Sizing, float], SizeRules] = SizeRules.of,
+) -> float | None:  # fmt: skip
     """The same where it does not depend on the diagonal, for any up to ``reach``: no size falls
-    as the diagonal grows. on_lattice: for triangles that form one."""
-    each = [SizeRules.of(sizing, diagonal) for diagonal in (0.0, reach)]
+    as the diagonal grows. on_lattice: for triangles that form one. rules_of: sizes and a
+    diagonal."""
+    each = [rules_of(sizing, diagonal) for diagonal in (0.0, reach)]
     if on_lattice:
         each = [rules.on_lattice() or rules for rules in each]
     low, high = (_allowed(rules, radius) for rules in each)

@@ -131,13 +131,15 @@ def test_an_edge_that_is_one_vertex_has_no_rows():
     assert np.array_equal(np.diff(cuts.first) == 0, empty)
 
 
-def test_an_estimate_looks_at_circles_as_at_straight_edges():
+def test_an_estimate_looks_at_fewer_places_of_circles_and_lines():
     model = sm.from_cadquery(cq.Workplane().box(4, 4, 1).faces(">Z").hole(1))
     sizing = model_sizing(model, sm.Sizing(size=0.3))
     every, few = (sample_edges(model, sizing, few) for few in (False, True))
     kinds = np.array([edge.curve.kind for edge in model.edges])
     assert set(np.diff(every.first)[kinds == "circle"]) == {129}
-    assert set(np.diff(few.first)) == {33}
+    assert set(np.diff(every.first)[kinds == "line"]) == {33}
+    assert set(np.diff(few.first)[kinds == "circle"]) == {33}
+    assert set(np.diff(few.first)[kinds == "line"]) == {17}
     nodes = [cut_edges(model, sizing.base, samples, {}) for samples in (every, few)]
     assert [len(cut.t) for cut in nodes[0]] == [len(cut.t) for cut in nodes[1]]
 
