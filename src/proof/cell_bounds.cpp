@@ -16,14 +16,23 @@ double largest_error(const CellCorners& corner) {
     return std::max({corner[0]->bends.error, corner[1]->bends.error, corner[2]->bends.error});
 }
 
-/// What R - L is made of at places of a cell: values at its corners, and g_k there by side and corner,
+constexpr std::size_t SIDE_PAIRS = 6;
+constexpr std::array<std::size_t, SIDE_PAIRS> PAIR_FIRST = {0, 0, 0, 1, 1, 2},
+                                              PAIR_OTHER = {0, 1, 2, 1, 2, 2};
+
+/// What R - L is made of at places of a cell: values at its corners, g_k there by side and corner, and
+/// R''''(e_k, e_k, e_m, e_m) by sides k and m,
 ///
-///     l_k,    l_i l_j (l_c + [c is i or j])        with i and j the ends of side k.
+///     l_k,    l_i l_j (l_c + [c is i or j]),    (s_k mean_k(s_m) + s_m mean_m(s_k)) / 2
+///
+/// with i and j the ends of side k, s_k = l_i l_j, and the mean of smooth_bounds.hpp; half of that
+/// where k = m.
 template <std::size_t FINER>
 struct PlaceWeights {
     static constexpr std::size_t COUNT = (FINER + 1) * (FINER + 2) / 2;
     std::array<std::array<double, COUNT>, 3> value{};
     std::array<std::array<std::array<double, COUNT>, 3>, 3> bend{};  // [side][corner]
+    std::array<std::array<double, COUNT>, SIDE_PAIRS> fourth{};
 
     constexpr PlaceWeights() {
         std::size_t place = 0;
@@ -37,10 +46,27 @@ struct PlaceWeights {
                         bend[k][c][place] = part(parts[i]) * part(parts[j]) *
                                             (part(parts[c]) + (c == i || c == j ? 1.0 : 0.0));
                 }
+                const Barycentric l = {part(parts[0]), part(parts[1]), part(parts[2])};
+                for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
+                    const std::size_t k = PAIR_FIRST[p], m = PAIR_OTHER[p];
+                    const double both =
+                        product(l, k) * mean(k, m, l) + product(l, m) * mean(m, k, l);
+                    fourth[p][place] = k == m ? 0.25 * both : 0.5 * both;
+                }
             }
     }
 
   private:
+    static constexpr double product(const Barycentric& l, std::size_t k) {
+        return l[k] * l[(k + 1) % 3];
+    }
+    /// Of s_m at x + s ((1 - t) u_i + t u_j - x), with the weight s, for the ends of side k.
+    static constexpr double mean(std::size_t k, std::size_t m, const Barycentric& l) {
+        const std::size_t a = m, b = (m + 1) % 3;
+        const auto half = [k](std::size_t c) { return c == k || c == (k + 1) % 3 ? 0.5 : 0.0; };
+        const double same = k == m ? 1.0 / 24.0 : 0.0;
+        return (l[a] * l[b] + l[a] * half(b) + l[b] * half(a)) / 12.0 + same;
+    }
     static constexpr double part(std::size_t n) {
         return static_cast<double>(n) / static_cast<double>(FINER);
     }
@@ -53,26 +79,80 @@ double largest(const std::array<double, COUNT>& numbers) {
     return most;
 }
 
-/// The largest |n . (R - L)| and |R - L| at places of a cell; scale: of g_k.
+/// |d . (R - L)| along axis d at most, at places of a cell; square: of its size over the triangle's;
+/// error: of R''(e, e) at its corners, of which there is a sixth at most (sum l_i l_j g_ij / 2).
 template <std::size_t FINER>
-PieceSize farthest_at_places(const CellCorners& corner, double scale) {
+auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts& rho, double square,
+                    double error) {
     static constexpr PlaceWeights<FINER> WEIGHTS;
     constexpr std::size_t COUNT = PlaceWeights<FINER>::COUNT;
-    std::array<double, COUNT> squares{}, heights{};  // of the last axis
+    std::array<double, COUNT> away{}, left{};
+    const auto add = [](std::array<double, COUNT>& sum, double factor,
+                        const std::array<double, COUNT>& weights) {
+        for (std::size_t p = 0; p < COUNT; ++p) sum[p] += factor * weights[p];
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        add(away, corner[c]->away[d], WEIGHTS.value[c]);
+        for (std::size_t k = 0; k < 3; ++k)
+            add(away, -square / 6.0 * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
+    }
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
+        const double most = 6.0 * std::min(rho[d][PAIR_FIRST[p]], rho[d][PAIR_OTHER[p]]);
+        add(left, square * square * most, WEIGHTS.fourth[p]);
+    }
+    for (std::size_t p = 0; p < COUNT; ++p)
+        away[p] = std::abs(away[p]) + (left[p] + square / 6.0 * error);
+    return away;
+}
+
+/// The largest |n . (R - L)| and |R - L| at places of a cell.
+template <std::size_t FINER>
+PieceSize farthest_at_places(const CellCorners& corner, const FourthParts& rho, double square,
+                             double error) {
+    std::array<double, PlaceWeights<FINER>::COUNT> squares{}, heights{};  // of the last axis
     for (std::size_t d = 0; d < 3; ++d) {
-        std::array<double, COUNT> away{};
-        const auto add = [&away](double factor, const std::array<double, COUNT>& weights) {
-            for (std::size_t p = 0; p < COUNT; ++p) away[p] += factor * weights[p];
-        };
-        for (std::size_t c = 0; c < 3; ++c) {
-            add(corner[c]->away[d], WEIGHTS.value[c]);
-            for (std::size_t k = 0; k < 3; ++k)
-                add(-scale * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
-        }
-        for (std::size_t p = 0; p < COUNT; ++p) heights[p] = away[p] * away[p];
-        for (std::size_t p = 0; p < COUNT; ++p) squares[p] += heights[p];
+        const auto away = farthest_along<FINER>(d, corner, rho, square, error);
+        for (std::size_t p = 0; p < away.size(); ++p) heights[p] = away[p] * away[p];
+        for (std::size_t p = 0; p < away.size(); ++p) squares[p] += heights[p];
     }
     return {std::sqrt(largest(heights)), std::sqrt(largest(squares))};
+}
+
+/// The largest number that what is computed of a cell is made of, and round-off at its corners.
+struct CellSize {
+    double size, error;
+};
+
+CellSize size_of_cell(const CellCorners& corner) {
+    CellSize found{0.0, 0.0};
+    for (const PlaceJet* there : corner) {
+        found.error = std::max(found.error, there->away_error);
+        for (std::size_t d = 0; d < 3; ++d) {
+            found.size = std::max(found.size, std::abs(there->away[d]));
+            for (const double x : there->bends.value[d])
+                found.size = std::max(found.size, std::abs(x));
+        }
+    }
+    return found;
+}
+
+/// Along a normal, and in all, of what is measured along axes that are tilted.
+PieceSize on_safe_side(const PieceSize& size, double error, const TriangleFrame& frame) {
+    const double whole = size.whole * (1.0 + 4.0 * frame.tilt + CELL_ROUNDING) + error;
+    return {size.height + (frame.tilt + CELL_ROUNDING) * whole + error, whole};
+}
+
+constexpr std::size_t FEW_PLACES = 3, MANY_PLACES = 6;  // along a side
+
+/// R - L at places of a cell, and what it rises by between them, by ``rises`` over their square.
+template <std::size_t FINER>
+PieceSize farthest(const CellCorners& corner, const FourthParts& rho, double square,
+                   const TriangleFrame& frame, const PieceSize& rises) {
+    constexpr double FINER_CELLS = FINER * FINER;
+    const PieceSize there = farthest_at_places<FINER>(corner, rho, square, largest_error(corner));
+    const auto [size, error] = size_of_cell(corner);
+    const PieceSize most = on_safe_side(there, error + CELL_ROUNDING * size, frame);
+    return {most.height + rises.height / FINER_CELLS, most.whole + rises.whole / FINER_CELLS};
 }
 
 /// One cell after the other.
@@ -131,18 +211,14 @@ class Cells {
         if (most.whole + square * rises.whole <= away_.whole &&
             most.height + square * rises.height <= away_.height)
             return;
-        take_farther(farthest(corner, {square * rises.height, square * rises.whole}));
+        take_farther(farthest<FEW_PLACES>(corner, rho_, square, frame_,
+                                          {square * rises.height, square * rises.whole}));
     }
     [[nodiscard]] PieceSize away_of(const PlaceJet& there) const {
         const auto& [x, y, z] = there.away;
-        return on_safe_side({std::abs(z), std::sqrt(x * x + y * y + z * z)}, there.away_error);
+        return on_safe_side({std::abs(z), std::sqrt(x * x + y * y + z * z)}, there.away_error,
+                            frame_);
     }
-    /// Along a normal, and in all, of what is measured along axes that are tilted.
-    [[nodiscard]] PieceSize on_safe_side(const PieceSize& size, double error) const {
-        const double whole = size.whole * (1.0 + 4.0 * frame_.tilt + CELL_ROUNDING) + error;
-        return {size.height + (frame_.tilt + CELL_ROUNDING) * whole + error, whole};
-    }
-    [[nodiscard]] PieceSize farthest(const CellCorners& corner, const PieceSize& rises) const;
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
     double scale_;
@@ -154,35 +230,6 @@ class Cells {
     PieceSize away_{0.0, 0.0};
     BySide slope_{};
 };
-
-/// R - L at places of the cell, and what it rises by between them, which falls with their square.
-PieceSize Cells::farthest(const CellCorners& corner, const PieceSize& rises) const {
-    constexpr std::size_t FEW = 4, MANY = 6;  // along a side
-    const double square = scale_ * scale_, scale = square / 6.0;
-    const bool is_few = within_ == CellPlaces::FEW;
-    const double finer = is_few ? FEW * FEW : MANY * MANY;
-    PieceSize most =
-        is_few ? farthest_at_places<FEW>(corner, scale) : farthest_at_places<MANY>(corner, scale);
-    const double more = largest_error(corner);
-    double squares = 0.0, off = 0.0, size = 0.0, error = 0.0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        double part = 0.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (const PlaceJet* there : corner)
-                size = std::max(size, std::abs(there->bends.value[d][k]));
-            part = std::max(part, square * rho_[d][k]);
-        }
-        off = scale * (part + more);  // of the normal in the end
-        squares += off * off;
-    }
-    for (const PlaceJet* there : corner) {
-        error = std::max(error, there->away_error);
-        for (const double x : there->away) size = std::max(size, std::abs(x));
-    }
-    most = {most.height + off, most.whole + std::sqrt(squares)};
-    most = on_safe_side(most, error + CELL_ROUNDING * size);
-    return {most.height + rises.height / finer, most.whole + rises.whole / finer};
-}
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
 /// linear between the corners, which is the mean of that along side k, n times the difference of
@@ -237,6 +284,20 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
     return found;
 }
 
+double height_at_places(const CellCorners& corner, const FourthParts& rho,
+                        const TriangleFrame& frame, double rises, double whole) {
+    const auto there = farthest_along<MANY_PLACES>(2, corner, rho, 1.0, largest_error(corner));
+    const auto [size, error] = size_of_cell(corner);
+    const double off = error + CELL_ROUNDING * size;
+    return on_safe_side({largest(there), whole}, off, frame).height +
+           rises / (MANY_PLACES * MANY_PLACES);
+}
+
+PieceSize size_at_places(const CellCorners& corner, const FourthParts& rho,
+                         const TriangleFrame& frame, const PieceSize& rises) {
+    return farthest<MANY_PLACES>(corner, rho, 1.0, frame, rises);
+}
+
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
                               const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope) {
@@ -244,15 +305,16 @@ BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
     if (within != CellPlaces::NONE)
         for (const PlaceJet& there : places) cells.take_corner(there);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
+    // those in the middle first, beside which others often add nothing
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; i + j < n; ++j) {
-            const PlaceJet &a = places[row(i) + j], &b = places[row(i + 1) + j],
-                           &c = places[row(i) + j + 1];
-            cells.take({&a, &b, &c}, 1.0);
-            if (i + j + 1 == n) continue;
-            const PlaceJet& across = places[row(i + 1) + j + 1];
-            cells.take({&across, &c, &b}, -1.0);
-        }
+        for (std::size_t j = 0; i + j + 1 < n; ++j)
+            cells.take(
+                {&places[row(i + 1) + j + 1], &places[row(i) + j + 1], &places[row(i + 1) + j]},
+                -1.0);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; i + j < n; ++j)
+            cells.take({&places[row(i) + j], &places[row(i + 1) + j], &places[row(i) + j + 1]},
+                       1.0);
     return cells.found();
 }
 

@@ -22,6 +22,15 @@ using CellCorners = std::array<const PlaceJet*, 3>;
 /// Averaged as the integrals of smooth_bounds.hpp are, of one cell alone.
 SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho);
 
+/// |n . (R - L)| over a triangle that is one cell, at a grid of places; rises: by
+/// its suprema over the triangle (size_from); whole: no less than |R - L|.
+double height_at_places(const CellCorners& corner, const FourthParts& rho,
+                        const TriangleFrame& frame, double rises, double whole);
+
+/// That and |R - L|.
+PieceSize size_at_places(const CellCorners& corner, const FourthParts& rho,
+                         const TriangleFrame& frame, const PieceSize& rises);
+
 struct BoundsOfCells {
     SideBends bends;  // suprema
     PieceSize away;   // |n . (R - L)| and |R - L|
@@ -29,7 +38,7 @@ struct BoundsOfCells {
 };
 
 /// Where R - L is looked at within a cell: nowhere, which leaves it infinite, or at a grid of places.
-enum class CellPlaces { NONE, FEW, MANY };
+enum class CellPlaces { NONE, FEW };
 
 /// places: of the grid with n cells along a side. with_slope: else it is left infinite.
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,

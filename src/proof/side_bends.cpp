@@ -112,6 +112,12 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     return {height, whole_from(size, within_plane(bends, size, frame), height)};
 }
 
+double whole_with(const SideBends& bends, const TriangleFrame& frame, double height) {
+    BySide size{};
+    for (std::size_t e = 0; e < 3; ++e) size[e] = size_along(bends, e, frame);
+    return whole_from(size, within_plane(bends, size, frame), height);
+}
+
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner,
                            bool with_slope) {
     BySide normal{}, size{}, up{}, down{};

@@ -51,6 +51,9 @@ struct PieceSize {
 };
 PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
 
+/// How far in all, where more is known of the height.
+double whole_with(const SideBends& bends, const TriangleFrame& frame, double height);
+
 /// From the largest |(r' - L')(e)| / |e| for the sides e to unit w: between the directions of two
 /// sides at an angle A it is at most the larger part over cos(A / 2).
 double slope_of(const BySide& part, const TriangleFrame& frame);

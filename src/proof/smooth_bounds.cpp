@@ -14,8 +14,8 @@ namespace {
 
 constexpr double SMOOTH_ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
 constexpr std::int32_t SMOOTH_TOGETHER = 24;  // triangles over one cell, at first
-constexpr double LITTLE = 0.04;               // of the height: rho that is good enough
-constexpr double OF_LIMIT = 1.0;  // what a grid of points leaves a small part of: grid_bounds.hpp
+constexpr double LITTLE = 0.08;               // of the height: rho that is good enough
+constexpr double OF_LIMIT = 2.0;  // what a grid of points leaves a small part of: grid_bounds.hpp
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
 
@@ -44,6 +44,19 @@ struct Member {
 using Group = std::span<Member>;
 
 double along_normal(const FourthParts& rho) { return std::max({rho[2][0], rho[2][1], rho[2][2]}); }
+
+/// Is a height by the largest of what corners say much above one by what they say of the middle?
+bool is_loose(double height, const CellCorners& corners) {
+    constexpr double MUCH = 1.05;
+    BySide sum{};  // nine times the mean of g, (x + u_i + u_j) / 3
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = [&](std::size_t c) { return corners[c % 3]->bends.value[2][k]; };
+        sum[k] = 4.0 * (at(k) + at(k + 1)) + at(k + 2);
+    }
+    const double up = largest_on_simplex(sum[0], sum[1], sum[2]),
+                 down = largest_on_simplex(-sum[0], -sum[1], -sum[2]);
+    return height > MUCH * std::max(up, down) / 18.0;
+}
 
 void widen(ParameterBox& box, Point2 p) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
@@ -238,8 +251,9 @@ bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
                                   asked_.curve(static_cast<std::size_t>(t)), with_slope);
         else  // at corners R is L
             places[k].bends = place_bends(*jets[k], piece, steps, AT_CORNERS[k], frame.axes);
-    TriangleBounds found =
-        bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off, false);
+    const CellCorners corners = {&places[0], &places[1], &places[2]};
+    const SideBends averaged = averaged_bends(corners, rho);
+    TriangleBounds found = bounds_from(averaged, frame, off, false);
     is_bounded_[t] = 1;
     if (!(found.whole < intervals::INFINITE)) {
         part_[t] = NONE;
@@ -248,15 +262,20 @@ bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
     const double limit = asked_.limits[t] - off;
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
-    const bool is_clear = found.whole <= limit || part > limit;  // places within say nothing more
-    const CellPlaces within = is_clear ? CellPlaces::NONE : CellPlaces::MANY;
-    const auto [bends, away, steepest] = bounds_of_cells(rows, 1, rho, frame, within, with_slope);
-    const auto [height, cell_whole] = size_from(bends, frame);
-    found.cell_height = height;
-    found.cell_whole = cell_whole;
+    const auto [bends, unknown, steepest] =
+        bounds_of_cells(rows, 1, rho, frame, CellPlaces::NONE, with_slope);
+    const PieceSize rises = size_from(bends, frame);
+    found.cell_height = rises.height;
+    found.cell_whole = rises.whole;
     found.slope = steepest;
-    found.height = std::min(found.height, away.height);
-    found.whole = std::min(found.whole, away.whole);
+    // else places within say nothing more
+    if (part <= limit && (found.whole > limit || is_loose(found.height, corners))) {
+        const double high = height_at_places(corners, rho, frame, rises.height, found.whole);
+        found.height = std::min(found.height, high);
+        found.whole = std::min(found.whole, whole_with(averaged, frame, found.height));
+        if (found.whole > limit && found.height <= limit)
+            found.whole = std::min(found.whole, size_at_places(corners, rho, frame, rises).whole);
+    }
     const double least = std::max(LITTLE * found.height, OF_LIMIT * asked_.limits[t]);
     out_[t] = found;
     return part <= least || (found.whole <= limit && found.slope <= asked_.slope);

@@ -13,6 +13,15 @@
 //          /  o  \            and rho <= 1/6 max over sides e of sup |d . r''''(e_ij, e_ij, e, e)|,
 //        u_i-o-o-u_j          the same lemma for g.
 //
+// At a place x that is looked at, what g is not linear adds 1/2 sum_m mean_k(s_m) |d . r''''(e_k, e_k, e_m, e_m)|
+// to the integral for side k at most, with s_m = l_a l_b for the ends a, b of side m, and its mean
+//
+//     mean_k(s_m)(x) = int int s_m(x + s ((1 - t) u_i + t u_j - x)) s ds dt
+//                    = (l_a l_b + l_a [b] / 2 + l_b [a] / 2) / 12 + [k = m] / 24
+//
+// where [c] is 1 for an end c of side k, else 0: a 48th of the largest r'''' at the middle of a triangle, where
+// rho / 6 is a 36th. Between places R - L rises by no more than the suprema of g over the triangle allow.
+//
 // Corners are computed once, fourth derivatives over cells that many triangles share: those are
 // multiplied by the fourth power of their size. Where rho is so large that a grid of points
 // (grid_bounds.hpp), which leaves a 16th or 256th of it, would not do, cells are cut.

@@ -107,25 +107,43 @@ bool split_at_knots(const SplineBasis& basis, double first, double last, Array<S
             (last - period < stop && split_within(basis, {start, last - period}, true, parts)));
 }
 
-void restrict_to(const SplineBasis& basis, const SpanPart& part, Homogeneous* control,
-                 std::size_t stride, Homogeneous* work) {
-    const std::size_t degree = basis.degree();
-    const double* knots = basis.knots().data() + part.span - static_cast<std::int64_t>(degree);
-    constexpr std::size_t MOST = 32;
-    std::array<Homogeneous, MOST> found{};
-    for (std::size_t i = 0; i <= degree; ++i) {  // the blossom of degree - i firsts and i lasts
-        for (std::size_t j = 0; j <= degree; ++j) work[j] = control[j * stride];
-        for (std::size_t r = 1; r <= degree; ++r) {
-            const double t = r <= degree - i ? part.first : part.last;
-            for (std::size_t j = degree; j >= r; --j) {
-                const double a = (t - knots[j]) / (knots[j + degree + 1 - r] - knots[j]);
-                for (std::size_t c = 0; c < 4; ++c)
-                    work[j][c] = (1.0 - a) * work[j - 1][c] + a * work[j][c];
-            }
-        }
-        found[i] = work[degree];
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): what is read is set
+Restriction::Restriction(const SplineBasis& basis, const SpanPart& part) : degree_(basis.degree()) {
+    const auto first = static_cast<std::size_t>(part.span) - degree_;
+    const std::span<const double> knots = basis.knots().subspan(first);
+    set_steps(knots, part.first, to_first_);
+    set_steps(knots, part.last, to_last_);
+}
+
+void Restriction::set_steps(std::span<const double> knots, double t, Steps& steps) const {
+    std::size_t at = 0;
+    for (std::size_t r = 1; r <= degree_; ++r)
+        for (std::size_t j = r; j <= degree_; ++j)
+            steps[at++] = (t - knots[j]) / (knots[j + degree_ + 1 - r] - knots[j]);
+}
+
+void Restriction::take_step(const Steps& steps, std::size_t r, Homogeneous* points) const {
+    const double* weights = steps.data() + first_of(r);
+    for (std::size_t j = degree_; j >= r; --j) {
+        const double a = weights[j - r];
+        for (std::size_t c = 0; c < 4; ++c)
+            points[j][c] = (1.0 - a) * points[j - 1][c] + a * points[j][c];
     }
-    for (std::size_t i = 0; i <= degree; ++i) control[i * stride] = found[i];
+}
+
+/// Coefficient i is the blossom of degree - i firsts and i lasts, which begins with the steps to the
+/// first that those after it begin with as well.
+void Restriction::apply(Homogeneous* control, std::size_t stride) const {
+    std::array<Homogeneous, HIGHEST_DEGREE + 1> points, work;  // NOLINT: as above
+    for (std::size_t j = 0; j <= degree_; ++j) points[j] = control[j * stride];
+    for (std::size_t taken = 0; taken <= degree_; ++taken) {
+        if (taken > 0) take_step(to_first_, taken, points.data());
+        std::copy(points.begin() + static_cast<std::ptrdiff_t>(taken),
+                  points.begin() + static_cast<std::ptrdiff_t>(degree_ + 1),
+                  work.begin() + static_cast<std::ptrdiff_t>(taken));
+        for (std::size_t r = taken + 1; r <= degree_; ++r) take_step(to_last_, r, work.data());
+        control[(degree_ - taken) * stride] = work[degree_];
+    }
 }
 
 }  // namespace surfmesh

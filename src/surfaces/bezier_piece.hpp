@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "surfaces/spline_basis.hpp"
 #include "values/array.hpp"
@@ -37,10 +38,29 @@ inline constexpr std::size_t HIGHEST_DEGREE = 25;
 /// x, y, z and the weight of a control point, the first three times the weight.
 using Homogeneous = std::array<double, 4>;
 
-/// Replace the degree + 1 control points of a part's span, `stride` apart, by the Bezier
-/// coefficients over the part. work: degree + 1 points.
-void restrict_to(const SplineBasis& basis, const SpanPart& part, Homogeneous* control,
-                 std::size_t stride, Homogeneous* work);
+/// From the degree + 1 control points of a part's span to the Bezier coefficients over the part, the
+/// same for all lines of a net.
+class Restriction {
+  public:
+    Restriction(const SplineBasis& basis, const SpanPart& part);
+
+    /// Replace control points, ``stride`` apart, by the coefficients.
+    void apply(Homogeneous* control, std::size_t stride) const;
+
+  private:
+    static constexpr std::size_t MOST = HIGHEST_DEGREE * (HIGHEST_DEGREE + 1) / 2;
+    using Steps = std::array<double, MOST>;
+
+    /// Weights of all steps towards t: step r = 1 ... degree has those of points r ... degree.
+    void set_steps(std::span<const double> knots, double t, Steps& steps) const;
+    [[nodiscard]] std::size_t first_of(std::size_t r) const {
+        return (r - 1) * degree_ - (r - 1) * (r - 2) / 2;
+    }
+    void take_step(const Steps& steps, std::size_t r, Homogeneous* points) const;
+
+    std::size_t degree_;
+    Steps to_first_, to_last_;  // as many of them as the degree asks for
+};
 
 /// Of coefficients restricted in so many steps (the degrees together), of the largest of them.
 inline double restriction_error(std::size_t degrees, double largest) {

@@ -51,7 +51,6 @@ std::array<Interval, 3> ranges_along(std::span<const Homogeneous> control, Point
 double SplineCurve::coefficients(const SpanPart& part, Point3 about,
                                  std::span<Homogeneous> control) const {
     const std::size_t degree = basis_.degree();
-    Array<Homogeneous> line(degree + 1);
     double largest = 0.0;
     for (std::size_t i = 0; i <= degree; ++i) {
         const std::int64_t from = part.span - static_cast<std::int64_t>(degree - i);
@@ -60,7 +59,7 @@ double SplineCurve::coefficients(const SpanPart& part, Point3 about,
         control[i] = {x.x, x.y, x.z, w};
         largest = std::max(largest, norm_1(x) + (weights_.empty() ? 0.0 : w));
     }
-    restrict_to(basis_, part, control.data(), 1, line.data());
+    Restriction(basis_, part).apply(control.data(), 1);
     return largest;
 }
 

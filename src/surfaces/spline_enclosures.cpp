@@ -138,7 +138,7 @@ SurfaceStatus SplineSurface::enclose(std::span<const Point2> uv,
 /// What is worked in, for one cell after the other.
 struct SplineSurface::Work {
     Array<SpanPart> u, v;
-    Array<Homogeneous> control, line, beside;
+    Array<Homogeneous> control, beside;
     Array<double> along, weights;
 };
 
@@ -150,7 +150,6 @@ SurfaceStatus SplineSurface::enclose_bends(std::span<const ParameterBox> cells,
     Work work;
     work.control.resize(count);
     work.beside.resize(count);
-    work.line.resize(std::max(rows, columns));
     work.along.resize(count);
     work.weights.resize(count);
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -188,8 +187,8 @@ std::array<double, 3> SplineSurface::jumps_between(const PartOfCell& before,
                                                    const PartOfCell& after, bool along_u,
                                                    const Directions& directions, Work& work) const {
     const Point3 middle = middle_of(after);
-    const double largest = std::max(coefficients(before, middle, work.beside, work.line),
-                                    coefficients(after, middle, work.control, work.line));
+    const double largest = std::max(coefficients(before, middle, work.beside),
+                                    coefficients(after, middle, work.control));
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
     const CreaseShape shape{along_u ? rows - 1 : columns - 1,
                             along_u ? columns : 1,
@@ -219,7 +218,7 @@ std::int64_t SplineSurface::corner_of(const PartOfCell& part) const {
 
 /// Bezier coefficients over a part, about a point; the largest of what they are made of.
 double SplineSurface::coefficients(const PartOfCell& part, Point3 about,
-                                   Array<Homogeneous>& control, Array<Homogeneous>& line) const {
+                                   Array<Homogeneous>& control) const {
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
     const bool rational = !weights_.empty();
     const std::int64_t corner = corner_of(part);
@@ -234,10 +233,9 @@ double SplineSurface::coefficients(const PartOfCell& part, Point3 about,
             largest = std::max(
                 {largest, std::abs(x.x), std::abs(x.y), std::abs(x.z), rational ? w : 0.0});
         }
-    for (std::size_t j = 0; j < columns; ++j)
-        restrict_to(u_, part.u, control.data() + j, columns, line.data());
-    for (std::size_t i = 0; i < rows; ++i)
-        restrict_to(v_, part.v, control.data() + i * columns, 1, line.data());
+    const Restriction along_u(u_, part.u), along_v(v_, part.v);
+    for (std::size_t j = 0; j < columns; ++j) along_u.apply(control.data() + j, columns);
+    for (std::size_t i = 0; i < rows; ++i) along_v.apply(control.data() + i * columns, 1);
     return largest;
 }
 
@@ -246,9 +244,9 @@ Bends SplineSurface::bends_of_part(const SpanPart& u, const SpanPart& v,
                                    const Directions& directions, Work& work) const {
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
     const bool rational = !weights_.empty();
-    auto& [parts_u, parts_v, control, line, beside, along, weights] = work;
+    auto& [parts_u, parts_v, control, beside, along, weights] = work;
     const PartOfCell part{u, v};
-    const double largest = coefficients(part, middle_of(part), control, line);
+    const double largest = coefficients(part, middle_of(part), control);
     const double error = 2.0 * restriction_error(u_.degree() + v_.degree(), largest);
     const Homogeneous& c = control[(rows / 2) * columns + columns / 2];
     const Point3 about = {c[0] / c[3], c[1] / c[3], c[2] / c[3]};

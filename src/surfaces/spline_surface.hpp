@@ -57,8 +57,7 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
                                         Work& work) const;
     [[nodiscard]] Point3 middle_of(const PartOfCell& part) const;
     [[nodiscard]] std::int64_t corner_of(const PartOfCell& part) const;
-    double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control,
-                        Array<Homogeneous>& line) const;
+    double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control) const;
 
     DerivativeBoxes boxes_of_part(const PartOfCell& part, const Directions& directions, int order,
                                   const BezierCorner* corner, ThirdWork& work) const;

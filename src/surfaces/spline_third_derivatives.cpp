@@ -12,11 +12,11 @@ namespace surfmesh {
 /// What is worked in, for one part after the other.
 struct SplineSurface::ThirdWork {
     Array<SpanPart> u, v;
-    Array<Homogeneous> control, line;
+    Array<Homogeneous> control;
     BezierWork numbers;
 
     explicit ThirdWork(std::size_t rows, std::size_t columns)
-        : control(rows * columns), line(std::max(rows, columns)), numbers(rows * columns) {}
+        : control(rows * columns), numbers(rows * columns) {}
 };
 
 /// Over a part, of the derivatives up to the order; at a corner of it alone where that is given.
@@ -25,7 +25,7 @@ DerivativeBoxes SplineSurface::boxes_of_part(const PartOfCell& part, const Direc
                                              ThirdWork& work) const {
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
     const auto& [u, v] = part;
-    const double largest = coefficients(part, middle_of(part), work.control, work.line);
+    const double largest = coefficients(part, middle_of(part), work.control);
     const BezierNet net{rows,
                         columns,
                         u.last - u.first,

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
+#include "elementary_functions/bits.hpp"
 #include "elementary_functions/exponential.hpp"
 #include "elementary_functions/logarithm.hpp"
 #include "elementary_functions/sine_cosine.hpp"
@@ -28,19 +31,33 @@ struct ConstRow {
     const double *mid, *rad;
 };
 
+/// The slots of a tape, and one row more, which an instruction writes and which then takes the place of
+/// its target: so that it may read what it replaces.
 class BallSlots {
   public:
-    BallSlots(const Tape& tape, std::size_t lanes) : mid_(tape, lanes), rad_(tape, lanes) {}
+    BallSlots(const Tape& tape, std::size_t lanes)
+        : rows_(tape.inputs() + tape.constants().size() + tape.registers() + 1),
+          memory_(2 * lanes * rows_.size()) {
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            double* row = memory_.data() + 2 * lanes * k;
+            rows_.begin()[k] = {row, row + lanes};
+        }
+    }
 
-    [[nodiscard]] Row target(std::int32_t slot) const { return {mid_[slot], rad_[slot]}; }
-    [[nodiscard]] ConstRow operator[](std::int32_t slot) const { return {mid_[slot], rad_[slot]}; }
+    [[nodiscard]] Row target(std::int32_t slot) const { return rows_[slot]; }
+    [[nodiscard]] ConstRow operator[](std::int32_t slot) const {
+        return {rows_[slot].mid, rows_[slot].rad};
+    }
+    [[nodiscard]] Row spare() const { return rows_.end()[-1]; }
+    void take_spare(std::int32_t slot) { std::swap(rows_[slot], rows_.end()[-1]); }
     void fill(std::int32_t slot, std::size_t n, Ball ball) const {
-        std::fill_n(mid_[slot], n, ball.mid);
-        std::fill_n(rad_[slot], n, ball.rad);
+        std::fill_n(rows_[slot].mid, n, ball.mid);
+        std::fill_n(rows_[slot].rad, n, ball.rad);
     }
 
   private:
-    TapeSlots<double> mid_, rad_;
+    Array<Row> rows_;
+    Array<double> memory_;
 };
 
 Ball ball_of(Interval a) {
@@ -206,10 +223,10 @@ class BallRun {
   public:
     BallRun(const Tape& tape, std::size_t lanes)
         : tape_(tape),
+          lanes_(lanes),
           slots_(tape, lanes),
           ranges_(one_instruction(), lanes),
-          mid_(lanes),
-          rad_(lanes) {
+          angles_(tape.spares() * lanes) {
         auto constant = static_cast<std::int32_t>(tape.inputs());
         for (const double value : tape.constants())
             slots_.fill(constant++, lanes, ball_of(outward_constant(value)));
@@ -218,17 +235,40 @@ class BallRun {
     void run(std::span<const double> points, std::size_t n, std::span<Ball> out);
 
   private:
-    void run(const Instruction& step, std::size_t n);
-    void run_by_intervals(const Instruction& step, std::size_t n);
+    void run(std::size_t instruction, std::size_t n);
+    void run_by_intervals(const Instruction& step, Row found, std::size_t n);
 
     const Tape& tape_;
+    std::size_t lanes_;
     BallSlots slots_;
     TapeSlots<Interval> ranges_;
-    Array<double> mid_, rad_;  // of what an instruction finds
+    Array<double> angles_;  // sines and cosines of shared angles, until they are taken
 };
 
+/// A sine or cosine; other: what the other one of its angle is kept in.
+void run_shared(const Instruction& step, bool is_second, Row out, ConstRow a,
+                std::span<double> other) {
+    const std::size_t n = other.size();
+    const std::span<const double> angle{a.mid, n};
+    const std::span<double> found{out.mid, n};
+    if (is_second)
+        std::copy_n(other.data(), n, out.mid);
+    else if (step.operation == Operation::SIN)
+        elementary::sincos(angle, found, other);
+    else
+        elementary::sincos(angle, other, found);
+    wave(out, a, n);
+}
+
+bool are_known(const double* rad, std::size_t n) {
+    std::uint64_t beyond = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        beyond |= elementary::is_above(rad[i], std::numeric_limits<double>::max());
+    return beyond >> 63 == 0;
+}
+
 /// Where nothing is known yet.
-void BallRun::run_by_intervals(const Instruction& step, std::size_t n) {
+void BallRun::run_by_intervals(const Instruction& step, Row found, std::size_t n) {
     for (std::int32_t k = 0; k < 3; ++k) {
         const ConstRow operand = slots_[step.operands[static_cast<std::size_t>(k)]];
         for (std::size_t i = 0; i < n; ++i)
@@ -237,22 +277,25 @@ void BallRun::run_by_intervals(const Instruction& step, std::size_t n) {
     const Instruction alone{step.operation, 3, {0, 1, 2}, step.exponent};
     run_outward(alone, ranges_, n);
     for (std::size_t i = 0; i < n; ++i) {
-        if (rad_.begin()[i] < intervals::INFINITE) continue;
-        const Ball found = ball_of(ranges_[3][i]);
-        mid_.begin()[i] = found.mid;
-        rad_.begin()[i] = found.rad;
+        if (found.rad[i] < intervals::INFINITE) continue;
+        const Ball ball = ball_of(ranges_[3][i]);
+        found.mid[i] = ball.mid;
+        found.rad[i] = ball.rad;
     }
 }
 
-void BallRun::run(const Instruction& step, std::size_t n) {
+void BallRun::run(std::size_t instruction, std::size_t n) {
+    const Instruction& step = tape_.instructions()[instruction];
+    const auto [spare, is_second] = tape_.shared_angles()[instruction];
     const auto [a, b, c] = step.operands;
-    const Row found{mid_.data(), rad_.data()}, target = slots_.target(step.target);
-    if (!run_by_rule(step, found, slots_[a], slots_[b], n))
+    const Row found = slots_.spare();
+    if (spare >= 0)
+        run_shared(step, is_second, found, slots_[a],
+                   {angles_.data() + static_cast<std::size_t>(spare) * lanes_, n});
+    else if (!run_by_rule(step, found, slots_[a], slots_[b], n))
         std::fill_n(found.rad, n, intervals::INFINITE);
-    const auto is_known = [](double rad) { return rad < intervals::INFINITE; };
-    if (!std::all_of(found.rad, found.rad + n, is_known)) run_by_intervals(step, n);
-    std::copy_n(found.mid, n, target.mid);
-    std::copy_n(found.rad, n, target.rad);
+    if (!are_known(found.rad, n)) run_by_intervals(step, found, n);
+    slots_.take_spare(step.target);
 }
 
 void BallRun::run(std::span<const double> points, std::size_t n, std::span<Ball> out) {
@@ -262,7 +305,7 @@ void BallRun::run(std::span<const double> points, std::size_t n, std::span<Ball>
         for (std::size_t i = 0; i < n; ++i) input.mid[i] = points[i * inputs + column];
         std::fill_n(input.rad, n, 0.0);
     }
-    for (const Instruction& step : tape_.instructions()) run(step, n);
+    for (std::size_t k = 0; k < tape_.instructions().size(); ++k) run(k, n);
     for (std::size_t k = 0; k < outputs; ++k) {
         const ConstRow found = slots_[tape_.outputs()[k]];
         for (std::size_t i = 0; i < n; ++i) {
