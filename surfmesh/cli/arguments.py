@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NoReturn, TypeAlias
 
 from surfmesh.cli.option_groups import (
+    BY_DEFAULT,
     BY_ROUNDING,
     READING,
     SIZES,
@@ -192,7 +193,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         help="mesh the faces on the machines of a Dask scheduler, such as tcp://host:8786",
     )  # fmt: skip
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
-    mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
+    mesh.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
     mesh.add_argument(
         "--manifest", metavar="JSON", help="write versions, options and hashes, to compare"
@@ -220,7 +221,7 @@ def _add_view(commands: _Commands) -> None:
     view = _command(commands, "view", "show a mesh or a surface")
     view.add_argument("input", metavar="INPUT", help=_ANYTHING)
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
-    view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
+    view.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour")
     view.add_argument("--circles", action="store_true", help="draw the packing on the surface")
     view.add_argument("--directions", action="store_true", help="draw principal directions")
     view.add_argument(
@@ -234,7 +235,7 @@ def _add_report(commands: _Commands) -> None:
     report = _command(commands, "report", "one HTML file: mesh, certificate, histograms")
     report.add_argument("input", metavar="INPUT", help=_ANYTHING)
     report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
-    report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
+    report.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour at first")
     add_sizes(report)
     add_cad(report)
     add_second_opinion(report)
