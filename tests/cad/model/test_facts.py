@@ -65,10 +65,8 @@ def test_area_of_an_ellipse_that_is_extruded():
 
 def face_of_loops(*loops):
     """A face in z = 0 whose loops share vertices where corners (x, y) are the same."""
-    vertices = {
-        (x, y): BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, 0)).Vertex()
-        for x, y in itertools.chain(*loops)
-    }
+    corners = itertools.chain(*loops)
+    vertices = {(x, y): BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, 0)).Vertex() for x, y in corners}
     wires = []
     for loop in loops:
         make = BRepBuilderAPI_MakeWire()

@@ -108,3 +108,28 @@ def test_a_horn_torus_of_splines_in_many_faces_meets_in_one_vertex():
     assert report.clean
     assert report.euler == 1
     assert report.volume == pytest.approx(16.0 * math.pi**2, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("half_length", "radius", "angle", "chord"),
+    [
+        (1.0, 1.0, 30.0, 0.02),
+        (1.0, 1.0, 30.0, 0.01),
+        (1.0, 0.3, 29.0, 0.003),
+        (5.0, 0.05, 45.0, 0.003),
+    ],
+)
+def test_wedges_of_balls_and_lenses_keep_the_chord_across(half_length, radius, angle, chord):
+    """Between two poles they were taken for thin tubes, of one triangle in 60 degrees however wide:
+    up to 4 times the chord off."""
+    arc = cq.Workplane("XZ").moveTo(0, -half_length).threePointArc((radius, 0), (0, half_length))
+    wedge = arc.close().revolve(angle, (0, 0, 0), (0, 1, 0))
+    report = sm.mesh(wedge, chord=chord).report
+    assert report.clean, report.problems
+
+
+def test_a_round_bend_of_a_pipe_keeps_the_chord():
+    """The part of a ball in a sweep along a polygon with round transitions."""
+    path = cq.Workplane("XZ").polyline([(0, 0), (0, 5), (4, 9)])
+    report = sm.mesh(cq.Workplane().circle(0.7).sweep(path, transition="round"), chord=0.02).report
+    assert report.clean, report.problems
