@@ -74,7 +74,11 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
 
     ``sizing`` holds what was given of the options of ``Sizing``, ``reading`` those of ``load``.
     """
-    options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
+    parser = _parser()
+    for word in argv:  # of which argparse makes an empty list
+        if word.startswith("--") and word.endswith("=--"):
+            parser.error(f"argument {word[:-3]}: '--' is no value")
+    options = parser.parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
     given = {name: held.pop(name) for name in (*SIZES, "proof", "vertices") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}

@@ -155,6 +155,8 @@ def test_mistakes_give_2_one_line_and_no_file(argv, stand_in, tmp_path, capsys):
         ("check wavy", "what one is made of: mesh it first"),
         ("mesh wavy -o a.vtu --units m", "its lengths have none"),
         ("mesh wavy -o a.vtu --simplify", "simplify is for CAD models and planar domains; "),
+        ("mesh wavy -o a.vtu --units=--", "argument --units: '--' is no value"),
+        ("mesh wavy -o a.vtu --gap 3", "gap 3: thin faces and gaps between faces are those of CAD"),
         ("mesh wavy -o a.vtu --by face", "--by face does nothing here: "),
     ],
 )
