@@ -21,6 +21,7 @@ from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, boundary_of
+from surfmesh.sizing.options.sizing import Sizing
 
 COLUMNS = 6
 """Triangles round a full tube: so many normals turn from one to the next by 60 degrees."""
@@ -275,7 +276,7 @@ def _tube(
         uv, t = _with_middle(uv), np.array([0.0, 0.5, 1.0])
     beside = np.stack([np.interp(t, other, right.uv[:, k]) for k in (0, 1)], axis=1)
     length = _ways(surface, uv, beside)
-    count = max(count, _columns_for_chord(job.sizing.chord, float(length.max()), turn))
+    count = max(count, _columns_asked_for(job.sizing, float(length.max()), turn))
     inside = _wide_enough(surface, uv, length)
     inner = [(uv + k / count * (beside - uv))[inside] for k in range(1, count)]
     columns = (left.uv, *inner, right.uv)
@@ -287,14 +288,17 @@ def _tube(
     return Tube(left, right, left_slots, right_slots, ends[1], first, columns)
 
 
-def _columns_for_chord(chord: float | None, length: float, turn: float) -> int:
-    """So many triangles round a way of this length and turn that they keep to the chord across.
+def _columns_asked_for(sizing: Sizing, length: float, turn: float) -> int:
+    """So many triangles round a way of this length and turn that they keep to chord and angle.
 
     An arc of radius R and angle a rises R (1 - cos a/2), at most R a^2 / 8, over its chord.
     """
-    if chord is None:
-        return 1
-    return math.ceil(math.sqrt(length * turn / (8.0 * OF_CHORD * chord)) - 1e-6)
+    count = 1.0
+    if sizing.chord is not None:
+        count = math.sqrt(length * turn / (8.0 * OF_CHORD * sizing.chord))
+    if sizing.angle is not None:
+        count = max(count, turn / math.radians(sizing.angle))
+    return math.ceil(count - 1e-6)
 
 
 def _wide_enough(surface: Surface, left: np.ndarray, length: np.ndarray) -> np.ndarray:
