@@ -24,6 +24,7 @@ from surfmesh.errors import (
     SizingError,
     SurfaceError,
     did_you_mean,
+    printable,
     shown,
 )
 from surfmesh.geometry.files.surface_file import OF_SURFACES, gallery, load_surface_file
@@ -222,6 +223,11 @@ def _mesh_once(
         with allowed_threads(threads):
             straight = Sizing.of(sizing).replaced(order=1)  # outlines are polygons
             return mesh_planar(model, straight, optimise, progress, simplify)
+    if simplify:
+        raise SurfaceError(
+            f"simplify is for CAD models and planar domains; {printable(model.name)} has no edges "
+            "or lines to simplify"
+        )
     from surfmesh.meshing.parametric_mesh import mesh_parametric
 
     with allowed_threads(threads):

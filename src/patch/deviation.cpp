@@ -277,8 +277,8 @@ PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3>
     }
     if (!far.empty()) far = look_again(surface, points, uv, size, found, far, result.distance);
     if (far.empty()) return result;
-    const ClosestPoints closest =
-        closest_points(surface, all(chosen(points, far)), all(chosen(uv, far)), PROJECTION_STEPS);
+    const ClosestPoints closest = closest_points_across_sides(
+        surface, all(chosen(points, far)), all(chosen(uv, far)), PROJECTION_STEPS);
     for (std::size_t k = 0; k < far.size(); ++k) result.distance[far[k]] = closest.distance[k];
     return result;
 }

@@ -306,8 +306,8 @@ class Measure {
             if (!is_near(offset, j) || !(offset.whole <= far_.whole[k])) left_.push_back(j);
         }
         if (left_.empty()) return;
-        set_distances(closest_points(surface, all(chosen(places_.points)), all(chosen(places_.uv)),
-                                     PROJECTION_STEPS)
+        set_distances(closest_points_across_sides(surface, all(chosen(places_.points)),
+                                                  all(chosen(places_.uv)), PROJECTION_STEPS)
                           .distance);
     }
 

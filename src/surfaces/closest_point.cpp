@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "surfaces/fundamental_forms.hpp"
+#include "surfaces/joined_sides.hpp"
 
 namespace surfmesh {
 namespace {
@@ -46,11 +47,12 @@ ParameterBox widened(const ParameterBox& box, double margin) {
 class Search {
   public:
     Search(SurfaceReader& surface, std::span<const Point3> points, ClosestPoints& found,
-           double margin)
+           double margin, const JoinedSides& joined = {})
         : surface_(surface),
           points_(points),
           found_(found),
           box_(widened(surface.domain(), margin)),
+          joined_(joined),
           squared_(points.size()) {}
 
     void start(std::span<const Point2> guesses) {
@@ -70,7 +72,7 @@ class Search {
         if (active_.empty()) return false;
         trials_.clear();
         for (std::size_t k = 0; k < active_.size(); ++k)
-            trials_.push_back(clipped(found_.uv[active_[k]] + steps_[k].uv, box_));
+            trials_.push_back(within(found_.uv[active_[k]] + steps_[k].uv));
         surface_.read({trials_.data(), trials_.size()}, is_last ? 0 : 1);
         for (std::size_t k = 0; k < active_.size(); ++k) judge(k, is_last);
         return true;
@@ -79,6 +81,11 @@ class Search {
     [[nodiscard]] double distance(std::size_t i) const { return std::sqrt(squared_[i]); }
 
   private:
+    /// Of a place that a step leads to: across joined sides, no farther than others.
+    [[nodiscard]] Point2 within(Point2 place) const {
+        return clipped(joined_.crossed(place, surface_.domain()), box_);
+    }
+
     void keep_unconverged() {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -108,24 +115,67 @@ class Search {
     std::span<const Point3> points_;
     ClosestPoints& found_;
     ParameterBox box_;
+    JoinedSides joined_;
     Array<double> squared_;
     Array<std::int32_t> active_;
     Array<Step> steps_;
     Array<Point2> trials_;
 };
 
-}  // namespace
-
-ClosestPoints closest_points(SurfaceReader& surface, std::span<const Point3> points,
-                             std::span<const Point2> guesses, int steps, double margin) {
+ClosestPoints searched(SurfaceReader& surface, std::span<const Point3> points,
+                       std::span<const Point2> guesses, int steps, double margin,
+                       const JoinedSides& joined) {
     ClosestPoints found{Array<Point2>(guesses), Array<double>(points.size()),
                         Array<Point3>(points.size())};
-    Search search(surface, points, found, margin);
+    Search search(surface, points, found, margin, joined);
     search.start(guesses);
     for (int remaining = steps - 1; remaining >= 0; --remaining)
         if (!search.advance(remaining == 0)) break;
     for (std::size_t i = 0; i < points.size(); ++i) found.distance[i] = search.distance(i);
     return found;
+}
+
+/// Is a place at a side of the box that no search leaves, or beyond it?
+bool is_at_wall(Point2 p, const ParameterBox& box) {
+    return !(p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y);
+}
+
+/// Search anew, across joined sides, for the points that are farther than ``limit`` or whose search
+/// has ended at a wall.
+void search_across_sides(SurfaceReader& surface, std::span<const Point3> points,
+                         std::span<const Point2> guesses, double limit, int steps,
+                         ClosestPoints& found) {
+    Array<std::int32_t> far;
+    Array<Point3> places;
+    Array<Point2> from;
+    const ParameterBox box = widened(surface.domain(), PROJECTION_MARGIN);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!(found.distance[i] > limit) && !is_at_wall(found.uv[i], box)) continue;
+        far.push_back(static_cast<std::int32_t>(i));
+        places.push_back(points[i]);
+        from.push_back(guesses[i]);
+    }
+    if (far.empty()) return;
+    const ClosestPoints other = closest_points_across_sides(surface, {places.data(), places.size()},
+                                                            {from.data(), from.size()}, steps);
+    for (std::size_t k = 0; k < far.size(); ++k) {
+        if (!(other.distance[k] < found.distance[far[k]])) continue;
+        found.uv[far[k]] = other.uv[k];
+        found.distance[far[k]] = other.distance[k];
+    }
+}
+
+}  // namespace
+
+ClosestPoints closest_points(SurfaceReader& surface, std::span<const Point3> points,
+                             std::span<const Point2> guesses, int steps, double margin) {
+    return searched(surface, points, guesses, steps, margin, {});
+}
+
+ClosestPoints closest_points_across_sides(SurfaceReader& surface, std::span<const Point3> points,
+                                          std::span<const Point2> guesses, int steps) {
+    const JoinedSides joined = joined_sides(surface);
+    return searched(surface, points, guesses, steps, PROJECTION_MARGIN, joined);
 }
 
 ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<const Point3> points,
@@ -141,9 +191,8 @@ ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<cons
         far.push_back(static_cast<std::int32_t>(i));
         places.push_back(points[i]);
     }
-    if (far.empty()) return found;
     Array<Point2> anew(far.size());
-    for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t corner = 0; corner < 3 && !far.empty(); ++corner) {
         for (std::size_t k = 0; k < far.size(); ++k) {  // the corner may be the singular point
             const Point2 from = corners[triangle[far[k]]][corner];
             anew[k] = from + FROM_CORNER * (found.uv[far[k]] - from);
@@ -156,6 +205,7 @@ ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<cons
             found.distance[far[k]] = other.distance[k];
         }
     }
+    search_across_sides(surface, points, guesses, limit, steps, found);
     return found;
 }
 

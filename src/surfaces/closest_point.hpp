@@ -29,11 +29,17 @@ ClosestPoints closest_points(SurfaceReader& surface, std::span<const Point3> poi
                              std::span<const Point2> guesses, int steps,
                              double margin = PROJECTION_MARGIN);
 
+/// The same, but a search that comes to a side which is joined to the opposite one goes on from
+/// there; ``uv`` may lie on the other side then.
+ClosestPoints closest_points_across_sides(SurfaceReader& surface, std::span<const Point3> points,
+                                          std::span<const Point2> guesses, int steps);
+
 using ParameterTriangle = std::array<Point2, 3>;
 
 /// The same for points in triangles, where those farther than ``limit`` are searched for anew
-/// from the corners of theirs, ``corners[triangle[i]]``: about a singular point the search from
-/// the middle finds others. ``foot`` is not kept up.
+/// from the corners of theirs, ``corners[triangle[i]]``, and across joined sides: about a singular
+/// point the search from the middle finds others, and parameters change fast. ``foot`` is not kept
+/// up.
 ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<const Point3> points,
                                           std::span<const Point2> guesses,
                                           std::span<const ParameterTriangle> corners,

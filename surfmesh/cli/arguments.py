@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NoReturn, TypeAlias
 
 from surfmesh.cli.option_groups import (
+    BY_DEFAULT,
     BY_ROUNDING,
     READING,
     SIZES,
@@ -73,7 +74,11 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
 
     ``sizing`` holds what was given of the options of ``Sizing``, ``reading`` those of ``load``.
     """
-    options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
+    parser = _parser()
+    for word in argv:  # of which argparse makes an empty list
+        if word.startswith("--") and word.endswith("=--"):
+            parser.error(f"argument {word[:-3]}: '--' is no value")
+    options = parser.parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
     given = {name: held.pop(name) for name in (*SIZES, "proof", "vertices") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}
@@ -192,7 +197,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         help="mesh the faces on the machines of a Dask scheduler, such as tcp://host:8786",
     )  # fmt: skip
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
-    mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
+    mesh.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
     mesh.add_argument(
         "--manifest", metavar="JSON", help="write versions, options and hashes, to compare"
@@ -220,7 +225,7 @@ def _add_view(commands: _Commands) -> None:
     view = _command(commands, "view", "show a mesh or a surface")
     view.add_argument("input", metavar="INPUT", help=_ANYTHING)
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
-    view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
+    view.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour")
     view.add_argument("--circles", action="store_true", help="draw the packing on the surface")
     view.add_argument("--directions", action="store_true", help="draw principal directions")
     view.add_argument(
@@ -234,7 +239,7 @@ def _add_report(commands: _Commands) -> None:
     report = _command(commands, "report", "one HTML file: mesh, certificate, histograms")
     report.add_argument("input", metavar="INPUT", help=_ANYTHING)
     report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
-    report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
+    report.add_argument("--by", default=BY_DEFAULT, choices=_COLOURS, help="colour at first")
     add_sizes(report)
     add_cad(report)
     add_second_opinion(report)

@@ -4,6 +4,7 @@ import argparse
 import math
 from collections.abc import Callable
 
+BY_DEFAULT = "alpha"  # colour of pictures
 BY_ROUNDING = "by-rounding"  # --imprint without a tolerance
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from surfmesh.cli.inputs import called
+from surfmesh.cli.option_groups import BY_DEFAULT
 from surfmesh.errors import FileFormatError, MeshingError
 
 if TYPE_CHECKING:
@@ -63,6 +64,7 @@ def require_outputs(options: Namespace) -> None:
         if path:
             require_writable(path, *extensions)
     _require_two_files(options.report, options.manifest)
+    _require_coloured(options)
 
 
 _WHOLE = ("picture", "report", "manifest", "second_opinion", "simplify", "flip")
@@ -91,6 +93,14 @@ def in_pieces(options: Namespace, surface: object) -> bool:
 def _require_two_files(report: str | None, manifest: str | None) -> None:
     if report and manifest and os.path.realpath(report) == os.path.realpath(manifest):
         raise FileFormatError(f"{manifest}: is the place of the report already")
+
+
+def _require_coloured(options: Namespace) -> None:
+    html = options.report and Path(options.report).suffix.lower() != ".json"
+    if options.by != BY_DEFAULT and not options.picture and not html:
+        raise FileFormatError(
+            f"--by {options.by} does nothing here: it colours a --picture or an HTML --report"
+        )
 
 
 @contextmanager

@@ -154,6 +154,10 @@ def test_mistakes_give_2_one_line_and_no_file(argv, stand_in, tmp_path, capsys):
         ("mesh wavy -o a.png", "a picture is written by mesh.plot, or by --picture"),
         ("check wavy", "what one is made of: mesh it first"),
         ("mesh wavy -o a.vtu --units m", "its lengths have none"),
+        ("mesh wavy -o a.vtu --simplify", "simplify is for CAD models and planar domains; "),
+        ("mesh wavy -o a.vtu --units=--", "argument --units: '--' is no value"),
+        ("mesh wavy -o a.vtu --gap 3", "gap 3: thin faces and gaps between faces are those of CAD"),
+        ("mesh wavy -o a.vtu --by face", "--by face does nothing here: "),
     ],
 )
 def test_mistakes_are_told_with_what_to_do(argv, said, tmp_path, capsys, monkeypatch):

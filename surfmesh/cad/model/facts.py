@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -15,6 +15,7 @@ from surfmesh.cad.model.curve_samples import walked
 from surfmesh.cad.model.incidence import SAME_PLACE, edge_uses, vertex_fans
 from surfmesh.cad.model.invariants import signed_areas
 from surfmesh.cad.model.loops import closes
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.result.model_facts import FaceFacts, ModelFacts, SolidFacts
 
 _KNOWN: WeakKeyDictionary[CadModel, ModelFacts] = WeakKeyDictionary()  # asked for every round
@@ -53,7 +54,8 @@ def _model_facts(model: CadModel) -> ModelFacts:
 def euler_number(model: CadModel, faces: Iterable[int]) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
-    One with islands, or with outer loops beside each other, is several pieces: 2 for each.
+    One with islands, or with outer loops beside each other, is several pieces: 2 for each. Loops
+    of one piece that meet in a vertex cut a way between them: 1 for each meeting.
 
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
     edge and one face. So is an edge that the mesh has as one vertex, being tiny.
@@ -86,46 +88,67 @@ class _EulerNumbers:
         return len(vertices) - len(edges) + inside
 
     def _inside_of(self, face: CadFace) -> int:
+        """Of its pieces without their borders: 2 for each, less one for each border."""
         if vanishes(self.model, face):
             return 0
-        return 2 * _pieces(self.model, face) - _borders(self.model, face, self._number)
+        if len(face.loops) < 2:
+            return 2 - len(face.loops)
+        pieces = _pieces(face, self._collapsed)
+        touches = sum(
+            len(loops) - len({pieces[loop] for loop in loops})
+            for loops in _meetings(self.model, face, self._number)
+        )
+        return 2 * len(set(pieces)) - len(face.loops) + touches
 
 
-def _pieces(model: CadModel, face: CadFace) -> int:
-    """How many outer loops it has, those apart from which touch others."""
-    if len(face.loops) < 2:
-        return 1
-    ends = [
-        {v for c in loop for v in (model.edges[c.edge].start, model.edges[c.edge].end)}
-        for loop in face.loops
-    ]
+def _pieces(face: CadFace, collapsed: Sequence[bool]) -> list[int]:
+    """For each loop the outer one of the piece of the face that it bounds.
+
+    Of two outer loops around a hole the smaller counts: an island lies within its hole.
+    """
     extent = np.ptp(np.array(face.surface.domain), axis=1)
-    uses = Counter(vertex for own in ends for vertex in own)
-    return 1 + sum(
-        area > 0.0
-        and all(uses[vertex] == 1 for vertex in own)
+    areas = signed_areas(face.loops)
+    outer = [0] + [
+        number
+        for number, (loop, area) in enumerate(zip(face.loops, areas))
+        if number > 0
+        and area > 0.0
         and max(Counter(c.edge for c in loop).values()) == 1
         and closes(loop, extent)
-        for loop, own, area in zip(face.loops[1:], ends[1:], signed_areas(face.loops[1:]))
-    )
+        and not all(collapsed[c.edge] for c in loop)
+    ]
+    pieces = list(range(len(face.loops)))
+    if len(outer) == 1:
+        return [0] * len(pieces)
+    polygons = [walked(list(loop), _ALONG).reshape(-1, 2) for loop in face.loops]
+    around = sorted(outer[1:], key=lambda number: areas[number])
+    for number in set(pieces) - set(outer):
+        holds = (k for k in around if np.mean(is_inside([polygons[k]], polygons[number])) > 0.5)
+        pieces[number] = next(holds, 0)
+    return pieces
 
 
-def _borders(model: CadModel, face: CadFace, number: list[int]) -> int:
-    """Number of loops, those that touch in a vertex counted as one."""
-    if len(face.loops) < 2:
-        return len(face.loops)
+_ALONG = np.linspace(0.0, 1.0, 24, endpoint=False)
+"""Of an edge: where its loop has corners as a polygon."""
+
+
+def _meetings(model: CadModel, face: CadFace, number: list[int]) -> list[set[int]]:
+    """The loops of a face at each place of (u, v) where they pass through a vertex.
+
+    Where two that bound one piece do, the way between them is cut.
+    """
     (u0, u1), (v0, v1) = face.surface.domain
     near = SAME_PLACE * np.array([u1 - u0, v1 - v0])
     starts = iter(walked(list(face.coedges), np.zeros(1))[:, 0])
-    passed: dict[int, list[tuple[int, np.ndarray]]] = {}
-    of = list(range(len(face.loops)))
+    passed: dict[int, list[tuple[np.ndarray, set[int]]]] = {}
     for loop, coedges in enumerate(face.loops):
         for coedge, place in zip(coedges, starts):
             edge = model.edges[coedge.edge]
-            vertex = number[edge.end if coedge.reversed else edge.start]
-            for other, there in passed.setdefault(vertex, []):
-                if of[other] != of[loop] and (np.abs(place - there) <= near).all():
-                    joined = of[other], of[loop]
-                    of = [min(joined) if k in joined else k for k in of]
-            passed[vertex].append((loop, place))
-    return len(set(of))
+            places = passed.setdefault(number[edge.end if coedge.reversed else edge.start], [])
+            for there, loops in places:
+                if (np.abs(place - there) <= near).all():
+                    loops.add(loop)
+                    break
+            else:
+                places.append((place, {loop}))
+    return [loops for places in passed.values() for _, loops in places]

@@ -29,6 +29,7 @@ MEGABYTES, MEGABYTES_A_MEGABYTE = 1000.0, 100.0  # of memory
 OWN_MEGABYTES = 250.0  # of libraries that the reader loads while it reads
 JOINING = 8.0  # times the seconds where bodies are imprinted or faces sewn
 LONGEST = 1e8  # seconds that a timer of the system takes
+MOST_MEGABYTES = 1e12  # that a limit of the system takes
 SECONDS_NAME, MEGABYTES_NAME = "SURFMESH_READ_SECONDS", "SURFMESH_READ_MEMORY"
 MORE_TIME = f"allow more with time_limit= (--time-limit, {SECONDS_NAME})"
 MORE_MEMORY = f"allow more with memory_limit= (--memory-limit, {MEGABYTES_NAME})"
@@ -63,7 +64,8 @@ class Limits:
             return
         if math.isfinite(self.megabytes):
             _, most = resource.getrlimit(resource.RLIMIT_DATA)
-            wanted = _data_bytes() + int((OWN_MEGABYTES + self.megabytes) * 1e6)
+            megabytes = min(OWN_MEGABYTES + self.megabytes, MOST_MEGABYTES)
+            wanted = _data_bytes() + int(megabytes * 1e6)
             wanted = wanted if most == resource.RLIM_INFINITY else min(wanted, most)
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
         if math.isfinite(self.seconds):

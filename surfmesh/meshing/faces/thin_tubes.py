@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -20,9 +21,14 @@ from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, boundary_of
+from surfmesh.sizing.options.sizing import Sizing
 
 COLUMNS = 6
 """Triangles round a full tube: so many normals turn from one to the next by 60 degrees."""
+
+OF_CHORD = 0.3
+"""And so many that the surface rises no higher over each than this fraction of the chord: triangles
+are as far from it as they sag along the tube and across together."""
 
 FEWEST = faces.FEWEST_STEPS  # 2.5
 """A level whose way round is less than so many steps along the edges is thin."""
@@ -127,7 +133,7 @@ def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, 
     if _turn(job.surface, *middle) < LEAST_TURN:
         return None, []
     slots = loop.slots[before][::-1], loop.slots[after]
-    return _tube(job.surface, one, other, *slots, following, middle, (True, True)), []
+    return _tube(job, one, other, *slots, following, middle, (True, True)), []
 
 
 def _is_pointed(surface: Surface, one: CoedgeNodes, other: CoedgeNodes, levels: int) -> bool:
@@ -162,7 +168,7 @@ def _tip_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, li
         left, left_slots = loop.part(before, end - levels, end)
         right, right_slots = loop.part(after, 0, levels)
         tube = _tube(
-            job.surface, left.backwards(), right, left_slots[::-1], right_slots, following,
+            job, left.backwards(), right, left_slots[::-1], right_slots, following,
             (left.uv[0], right.uv[-1]), (True, False),
         )  # fmt: skip
         pieces, slots = loop.pieces.copy(), loop.slots.copy()
@@ -190,7 +196,7 @@ def _neck_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, l
             left, left_slots = loop.part(before, end - high, end - low)
             right, right_slots = loop.part(after, low, high)
             tube = _tube(
-                job.surface, left.backwards(), right, left_slots[::-1], right_slots, following,
+                job, left.backwards(), right, left_slots[::-1], right_slots, following,
                 (left.uv[0], right.uv[-1]), (False, False),
             )  # fmt: skip
             beyond = [k % count for k in range(after + 1, before + count)]
@@ -252,7 +258,7 @@ def _ways(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def _tube(
-    surface: Surface, left: CoedgeNodes, right: CoedgeNodes, left_slots: np.ndarray,
+    job: FaceJob, left: CoedgeNodes, right: CoedgeNodes, left_slots: np.ndarray,
     right_slots: np.ndarray, following: int, round_way: Sequence[np.ndarray],
     poles: tuple[bool, bool],
 ) -> Tube:  # fmt: skip
@@ -260,6 +266,7 @@ def _tube(
 
     round_way: two ends (2,) of a way round, by whose turn the columns are counted.
     """
+    surface = job.surface
     seam = np.array_equal(left.numbers, right.numbers)
     turn = _turn(surface, *round_way)
     count = int(np.ceil(COLUMNS * turn / (2.0 * np.pi) - 1e-6))
@@ -268,7 +275,9 @@ def _tube(
     if all(poles) and len(uv) == 2:
         uv, t = _with_middle(uv), np.array([0.0, 0.5, 1.0])
     beside = np.stack([np.interp(t, other, right.uv[:, k]) for k in (0, 1)], axis=1)
-    inside = _wide_enough(surface, uv, beside)
+    length = _ways(surface, uv, beside)
+    count = max(count, _columns_asked_for(job.sizing, float(length.max()), turn))
+    inside = _wide_enough(surface, uv, length)
     inner = [(uv + k / count * (beside - uv))[inside] for k in range(1, count)]
     columns = (left.uv, *inner, right.uv)
     ends = [
@@ -279,9 +288,24 @@ def _tube(
     return Tube(left, right, left_slots, right_slots, ends[1], first, columns)
 
 
-def _wide_enough(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """The levels at which inner columns have nodes: the ends, and where the tube is no thread."""
-    length = _ways(surface, left, right)
+def _columns_asked_for(sizing: Sizing, length: float, turn: float) -> int:
+    """So many triangles round a way of this length and turn that they keep to chord and angle.
+
+    An arc of radius R and angle a rises R (1 - cos a/2), at most R a^2 / 8, over its chord.
+    """
+    count = 1.0
+    if sizing.chord is not None:
+        count = math.sqrt(length * turn / (8.0 * OF_CHORD * sizing.chord))
+    if sizing.angle is not None:
+        count = max(count, turn / math.radians(sizing.angle))
+    return math.ceil(count - 1e-6)
+
+
+def _wide_enough(surface: Surface, left: np.ndarray, length: np.ndarray) -> np.ndarray:
+    """The levels at which inner columns have nodes: the ends, and where the tube is no thread.
+
+    length: (n,) of the way round at each.
+    """
     (points,) = surface.evaluate(left, 0)
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     wide = length > THREAD * np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])

@@ -91,4 +91,12 @@ def _second_look(
     by_triangle[worst], triangle, point, uv = dense_deviation(
         *known.arrays, worst, DENSE, chord, STEPS
     )
+    for _ in range(len(worst)):  # the largest by searches from its corners too
+        own = worst[by_triangle[worst].argmax()][None]
+        before = float(by_triangle[own[0]])
+        by_triangle[own], triangle, point, uv = dense_deviation(
+            *known.arrays, own, DENSE, 0.0, STEPS
+        )
+        if not by_triangle[own[0]] < before:
+            break
     return triangle, (point[0], point[1], point[2]), (uv[0], uv[1])

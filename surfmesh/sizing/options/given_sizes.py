@@ -93,7 +93,21 @@ def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
             f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
             f"{type(surface).__name__} ask for a chord"
         )
+    if made.gap is not None or made.gap_faces:
+        _require_gaps(surface, made)
     return made
+
+
+def _require_gaps(surface: Surface, sizing: Sizing) -> None:
+    """Raise ``SizingError`` for triangles across gaps of a surface that is not searched for any."""
+    from surfmesh.geometry.planar.planar_domain import PlanarDomain
+
+    asked = "gap_faces" if sizing.gap_faces else f"gap {sizing.gap:g}"
+    if sizing.gap_faces or not isinstance(surface, PlanarDomain):
+        raise SizingError(
+            f"{asked}: thin faces and gaps between faces are those of CAD models, gaps between "
+            f"lines of planar domains too; of a {type(surface).__name__} ask for a size"
+        )
 
 
 def _by_selection(sizing: Mapping[str, Any]) -> bool:

@@ -1,7 +1,16 @@
 """Euler numbers of CAD models, which follow from topology alone, and areas."""
 
+import itertools
+
 import cadquery as cq
 import pytest
+from OCP.BRepBuilderAPI import (
+    BRepBuilderAPI_MakeEdge,
+    BRepBuilderAPI_MakeFace,
+    BRepBuilderAPI_MakeVertex,
+    BRepBuilderAPI_MakeWire,
+)
+from OCP.gp import gp_Pln, gp_Pnt
 from scipy.special import ellipe
 from shapes import (
     bare_sphere,
@@ -12,6 +21,7 @@ from shapes import (
     square_with_inner_edges,
 )
 
+import surfmesh as sm
 from surfmesh.cad.cadquery.from_cadquery import from_cadquery
 from surfmesh.cad.model.facts import euler_number, model_facts
 
@@ -51,3 +61,51 @@ def test_area_of_an_ellipse_that_is_extruded():
     model = from_cadquery(cq.Workplane().ellipse(10, 6).extrude(20))
     side = next(face for face in model.faces if face.kind == "extrusion")
     assert side.area == pytest.approx(20 * 40 * ellipe(1 - 0.6**2), rel=1e-4)
+
+
+def face_of_loops(*loops):
+    """A face in z = 0 whose loops share vertices where corners (x, y) are the same."""
+    corners = itertools.chain(*loops)
+    vertices = {(x, y): BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, 0)).Vertex() for x, y in corners}
+    wires = []
+    for loop in loops:
+        make = BRepBuilderAPI_MakeWire()
+        for ends in zip(loop, loop[1:] + loop[:1]):
+            make.Add(BRepBuilderAPI_MakeEdge(*(vertices[end] for end in ends)).Edge())
+        wires.append(make.Wire())
+    face = BRepBuilderAPI_MakeFace(gp_Pln(), wires[0], True)
+    for wire in wires[1:]:
+        face.Add(wire)
+    return cq.Face(face.Face())
+
+
+SQUARE = [(0, 0), (2, 0), (4, 0), (4, 2), (4, 4), (2, 4), (0, 4), (0, 2)]
+NEXT_TO_IT = [(4, 4), (5, 4), (5, 5), (4, 5)]
+LOOPS_THAT_MEET = {
+    "two outer loops": ((SQUARE, NEXT_TO_IT), 1),
+    "a ring of three": (
+        ([(0, 0), (1, 0), (0, 1)], [(1, 0), (2, 0), (1.5, 1)], [(0, 1), (1.5, 1), (1.5, 2)]), 0,
+    ),
+    "a hole once": ((SQUARE, [(0, 0), (1, 2), (2, 1)]), 0),
+    "a hole twice": ((SQUARE, [(0, 0), (1, 2), (4, 4), (2, 1)]), 0),
+    "a hole four times": ((SQUARE, [(2, 0), (0, 2), (2, 4), (4, 2)]), 0),
+    "two holes": (
+        ([(-1, -1), (5, -1), (5, 5), (-1, 5)], [(0, 0), (0, 1), (1, 1), (1, 0)],
+         [(1, 1), (1, 2), (2, 2), (2, 1)]), -1,
+    ),
+    "a hole and an island": (
+        ([(-1, -1), (5, -1), (5, 5), (-1, 5)], [(0, 0), (0, 2), (2, 2), (2, 0)],
+         [(0, 0), (0.8, 0.1), (0.1, 0.8)]), 0,
+    ),
+    "an outer loop, another and a hole": ((SQUARE, [(4, 4), (3, 2), (2, 3)], NEXT_TO_IT), 0),
+    "a hole and its island at the rim": (
+        (SQUARE, [(4, 4), (3, 1), (1, 3)], [(4, 4), (2, 3), (3, 2)]), 0,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOOPS_THAT_MEET)
+def test_euler_number_of_a_face_whose_loops_meet_in_a_vertex(name):
+    loops, expected = LOOPS_THAT_MEET[name]
+    report = sm.mesh(from_cadquery(face_of_loops(*loops), heal=False), size=1.0).report
+    assert report.clean and report.euler == report.euler_exact == expected

@@ -247,6 +247,12 @@ def test_what_is_wrong_with_a_trusted_file_is_said_as_of_any_other(tmp_path, cap
     assert capfd.readouterr().out == ""
 
 
+def test_limits_beyond_what_the_system_counts(tmp_path):
+    """The reader failed with an ``OverflowError``."""
+    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
+    assert read_cad(tmp_path / "sphere.brep", memory_limit=1e300, time_limit=1e300).faces
+
+
 @pytest.mark.parametrize("limit", [{"time_limit": 1.0}, {"memory_limit": math.inf}])
 def test_limits_need_a_child(tmp_path, limit):
     shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")

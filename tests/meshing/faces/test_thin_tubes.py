@@ -108,3 +108,29 @@ def test_a_horn_torus_of_splines_in_many_faces_meets_in_one_vertex():
     assert report.clean
     assert report.euler == 1
     assert report.volume == pytest.approx(16.0 * math.pi**2, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("half_length", "radius", "turn", "sizes"),
+    [
+        (1.0, 1.0, 30.0, {"chord": 0.02}),
+        (1.0, 1.0, 30.0, {"chord": 0.01}),
+        (1.0, 0.3, 29.0, {"chord": 0.003}),
+        (5.0, 0.05, 45.0, {"chord": 0.003}),
+        (1.0, 0.1, 45.0, {"angle": 20.0}),
+    ],
+)
+def test_wedges_of_balls_and_lenses_keep_chord_and_angle_across(half_length, radius, turn, sizes):
+    """Between two poles they were taken for thin tubes, of one triangle in 60 degrees however wide:
+    up to 4 times the chord off, and turned by up to 49 degrees where 20 were asked for."""
+    arc = cq.Workplane("XZ").moveTo(0, -half_length).threePointArc((radius, 0), (0, half_length))
+    wedge = arc.close().revolve(turn, (0, 0, 0), (0, 1, 0))
+    report = sm.mesh(wedge, **sizes).report
+    assert report.clean, report.problems
+
+
+def test_a_round_bend_of_a_pipe_keeps_the_chord():
+    """The part of a ball in a sweep along a polygon with round transitions."""
+    path = cq.Workplane("XZ").polyline([(0, 0), (0, 5), (4, 9)])
+    report = sm.mesh(cq.Workplane().circle(0.7).sweep(path, transition="round"), chord=0.02).report
+    assert report.clean, report.problems
