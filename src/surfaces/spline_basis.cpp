@@ -103,8 +103,8 @@ void SplineBasis::derivatives(KnotPlace place, int order, std::span<double> tabl
                      out.data());
 }
 
-void SplineBasis::derivatives(std::int64_t span, NumberPair t, int order,
-                              std::span<NumberPair> table, std::span<NumberPair> out) const {
+void SplineBasis::derivatives(std::int64_t span, TwoNumbers t, int order,
+                              std::span<TwoNumbers> table, std::span<TwoNumbers> out) const {
     take_derivatives(knots_.data() + span + 1, degree_, t, order, table.data(), out.data());
 }
 

@@ -17,7 +17,7 @@
 #include <span>
 
 #include "values/array.hpp"
-#include "values/number_pair.hpp"
+#include "values/two_numbers.hpp"
 
 namespace surfmesh {
 
@@ -58,8 +58,8 @@ class SplineBasis {
     void derivatives(KnotPlace place, int order, std::span<double> table,
                      std::span<double> out) const;
     /// The same of two parameters in one span.
-    void derivatives(std::int64_t span, NumberPair t, int order, std::span<NumberPair> table,
-                     std::span<NumberPair> out) const;
+    void derivatives(std::int64_t span, TwoNumbers t, int order, std::span<TwoNumbers> table,
+                     std::span<TwoNumbers> out) const;
 
     /// The spans that a range meets; all of them where it goes beyond the knots.
     [[nodiscard]] SpanRange spans(double low, double high) const;
@@ -94,7 +94,7 @@ class FunctionsOfSpline {
         basis.derivatives(place, order_, {table_.data(), table_.size()},
                           {values_.data(), values_.size()});
     }
-    void evaluate(const SplineBasis& basis, std::int64_t span, NumberPair t) {
+    void evaluate(const SplineBasis& basis, std::int64_t span, TwoNumbers t) {
         basis.derivatives(span, t, order_, {table_.data(), table_.size()},
                           {values_.data(), values_.size()});
     }
@@ -110,6 +110,6 @@ class FunctionsOfSpline {
 };
 
 using SplineFunctions = FunctionsOfSpline<double>;
-using PairsOfSplineFunctions = FunctionsOfSpline<NumberPair>;
+using PairsOfSplineFunctions = FunctionsOfSpline<TwoNumbers>;
 
 }  // namespace surfmesh

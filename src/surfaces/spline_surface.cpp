@@ -125,8 +125,8 @@ void SplineSurface::evaluate_as(std::span<const Point2> uv, std::span<Point3> ou
                 both_by_u.evaluate(u_, u.span, {u.t, next_u.t});
                 both_by_v.evaluate(v_, v.span, {v.t, next_v.t});
                 const auto sums = sums_at<order, rational>(corner, both_by_u, both_by_v);
-                put(point, corner, sums, [](NumberPair n) { return n.first; });
-                put(++point, corner, sums, [](NumberPair n) { return n.second; });
+                put(point, corner, sums, [](TwoNumbers n) { return n.first; });
+                put(++point, corner, sums, [](TwoNumbers n) { return n.second; });
                 known = NOWHERE;
                 continue;
             }
