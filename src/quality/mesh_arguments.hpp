@@ -2,6 +2,9 @@
 // copied.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "binding/arrays.hpp"
@@ -45,15 +48,30 @@ inline void require_mesh(const MeasuredMesh& mesh) {
     require_indices(mesh.faces, mesh.surfaces.size(), "faces");
 }
 
+/// Refuse pairs (k, 2) that are not half-edges of so many triangles; NIL may stand in the second
+/// column. Several are looked at at once, by signs.
+inline void require_half_edges(const Matrix<std::int32_t, 2>& pairs, std::size_t triangles,
+                               const char* what) {
+    constexpr auto LARGEST = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+    if (triangles == 0 && pairs.size() > 0) throw nb::value_error(what);
+    const auto last = static_cast<std::uint32_t>(std::min(3 * triangles - 1, LARGEST));
+    const std::span numbers(pairs.data(), pairs.size());
+    std::uint32_t signs = 0;
+    for (const std::int32_t number : numbers) {
+        const auto e = static_cast<std::uint32_t>(number);
+        signs |= (e + 1) | (last - e);
+    }
+    for (std::size_t k = 0; k < numbers.size(); k += 2)
+        signs |= static_cast<std::uint32_t>(numbers[k]);
+    if (static_cast<std::int32_t>(signs) < 0) throw nb::value_error(what);
+}
+
 /// Both sides of edges (k, 2) of so many triangles, in range.
 inline std::span<const EdgeSides> sides_of(const Matrix<std::int32_t, 2>& edges,
                                            std::size_t triangles) {
     const std::span<const EdgeSides> sides{reinterpret_cast<const EdgeSides*>(edges.data()),
                                            edges.shape(0)};
-    const auto end = static_cast<std::int64_t>(3 * triangles);
-    for (const EdgeSides& side : sides)
-        if (side.half_edge < 0 || side.half_edge >= end || side.twin < -1 || side.twin >= end)
-            throw nb::value_error("edges has a half-edge that is out of range");
+    require_half_edges(edges, triangles, "edges has a half-edge that is out of range");
     return sides;
 }
 
@@ -62,10 +80,7 @@ inline std::span<const EdgeTable::Sides> half_edge_pairs(const Matrix<std::int32
                                                          std::size_t triangles) {
     const std::span<const EdgeTable::Sides> sides{
         reinterpret_cast<const EdgeTable::Sides*>(half_edges.data()), half_edges.shape(0)};
-    const auto end = static_cast<std::int64_t>(3 * triangles);
-    for (const auto& [first, second] : sides)
-        if (first < 0 || first >= end || second < NIL || second >= end)
-            throw nb::value_error("half_edges has an index that is out of range");
+    require_half_edges(half_edges, triangles, "half_edges has an index that is out of range");
     return sides;
 }
 

@@ -24,8 +24,7 @@ Point3 normal_of(std::span<const Point3> points, const TriangleCorners& t) {
 
 /// Corner e % 3 of triangle e / 3.
 Vertex corner_of_half_edge(std::span<const TriangleCorners> triangles, HalfEdge e) {
-    const TriangleCorners& t = triangles[e / 3];
-    return e % 3 == 0 ? t.a : e % 3 == 1 ? t.b : t.c;
+    return corners_in_a_row(triangles)[e];
 }
 
 /// Angles, degrees, in the order of their turns. Arc tangents are gathered: many at once take half

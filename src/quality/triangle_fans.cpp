@@ -33,8 +33,7 @@ class JoinedCorners {
 
 /// Where half-edge e starts: its corner.
 Vertex start_of_half_edge(std::span<const TriangleCorners> triangles, std::int32_t e) {
-    const TriangleCorners& t = triangles[e / 3];
-    return e % 3 == 0 ? t.a : e % 3 == 1 ? t.b : t.c;
+    return corners_in_a_row(triangles)[e];
 }
 
 /// The half-edge after e in its triangle.

@@ -12,8 +12,8 @@
 namespace surfmesh {
 namespace {
 
-// triangles in a leaf: a test of eight boxes costs what a level or two of the tree do
-constexpr std::size_t LEAF = 8;
+// boxes in a group: a test of all of them costs little more than one of a single box
+constexpr std::size_t WIDTH = 8;
 
 /// The 20 bits of x, two zeros after each.
 std::int64_t spread(std::int64_t x) {
@@ -41,7 +41,7 @@ struct Frame {
 
     FramePoint operator()(Point3 p) const {
         if (scale == 0.0) return {0.0F, 0.0F, 0.0F};
-        const Point3 q = scale * (p - low) + Point3{0.0, 0.0, 0.0};  // no -0: see ``overlap``
+        const Point3 q = scale * (p - low) + Point3{0.0, 0.0, 0.0};  // no -0: see ``overlapping``
         return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
     }
 };
@@ -77,32 +77,22 @@ struct Bounds {
     void add(FramePoint p) { add({{p.x, p.y, p.z, 0.0F}, {p.x, p.y, p.z, 0.0F}}); }
 };
 
-/// All comparisons at once, by the signs of differences, of equal ones +0 as none of them is -0:
-/// which comparison decides cannot be foretold.
-bool overlap(const Bounds& a, const Bounds& b) {
-    std::int32_t signs = 0;
-    for (int k = 0; k < 4; ++k)
-        signs |= std::bit_cast<std::int32_t>(b.high[k] - a.low[k]) |
-                 std::bit_cast<std::int32_t>(a.high[k] - b.low[k]);
-    return signs >= 0;
-}
-
 /// The triangles of a leaf: from the first to before the last; of one patch, or all of none.
 struct Leaf {
     std::size_t first, end;
     std::int32_t patch;
 };
 
-/// The boxes of a leaf, coordinate by coordinate: all are compared with another at once. Those
-/// beyond its triangles have no inside.
-struct LeafBoxes {
-    float low[3][LEAF], high[3][LEAF];
+/// A group of boxes, coordinate by coordinate: all are compared with another at once. Those
+/// that are not set have no inside.
+struct BoxGroup {
+    float low[3][WIDTH], high[3][WIDTH];
 
-    LeafBoxes() {
+    BoxGroup() {
         constexpr float INFINITE = std::numeric_limits<float>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {
-            std::fill_n(low[k], LEAF, INFINITE);
-            std::fill_n(high[k], LEAF, -INFINITE);
+            std::fill_n(low[k], WIDTH, INFINITE);
+            std::fill_n(high[k], WIDTH, -INFINITE);
         }
     }
     void set(std::size_t place, const Bounds& box) {
@@ -117,21 +107,23 @@ struct LeafBoxes {
     }
 };
 
-/// Bit k: has the k-th box of a leaf a point in common with another? By signs, as ``overlap``.
-std::uint32_t overlapping(const LeafBoxes& leaf, const Bounds& box) {
+/// Bit k: has the k-th box of a group a point in common with another? All comparisons at once, by the
+/// signs of differences, of equal ones +0 as none of them is -0: which comparison decides cannot be
+/// foretold.
+std::uint32_t overlapping(const BoxGroup& group, const Bounds& box) {
     const auto sign = [](float x) { return std::bit_cast<std::int32_t>(x); };
     const float low_x = box.low[0], low_y = box.low[1], low_z = box.low[2];
     const float high_x = box.high[0], high_y = box.high[1], high_z = box.high[2];
-    constexpr std::int32_t BIT[LEAF] = {1, 2, 4, 8, 16, 32, 64, 128};
-    std::int32_t found[LEAF];  // four by four, as the processor does
-    for (std::size_t k = 0; k < LEAF; ++k) {
-        const std::int32_t signs = sign(leaf.high[0][k] - low_x) | sign(high_x - leaf.low[0][k]) |
-                                   sign(leaf.high[1][k] - low_y) | sign(high_y - leaf.low[1][k]) |
-                                   sign(leaf.high[2][k] - low_z) | sign(high_z - leaf.low[2][k]);
+    constexpr std::int32_t BIT[WIDTH] = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::int32_t found[WIDTH];  // four by four, as the processor does
+    for (std::size_t k = 0; k < WIDTH; ++k) {
+        const std::int32_t signs = sign(group.high[0][k] - low_x) | sign(high_x - group.low[0][k]) |
+                                   sign(group.high[1][k] - low_y) | sign(high_y - group.low[1][k]) |
+                                   sign(group.high[2][k] - low_z) | sign(high_z - group.low[2][k]);
         found[k] = ~(signs >> 31) & BIT[k];
     }
-    std::int32_t both[LEAF / 2];
-    for (std::size_t k = 0; k < LEAF / 2; ++k) both[k] = found[k] | found[k + LEAF / 2];
+    std::int32_t both[WIDTH / 2];
+    for (std::size_t k = 0; k < WIDTH / 2; ++k) both[k] = found[k] | found[k + WIDTH / 2];
     return static_cast<std::uint32_t>(both[0] | both[1] | both[2] | both[3]);
 }
 
@@ -141,19 +133,20 @@ std::int32_t common_patch(std::int32_t a, std::int32_t b) {
     return a == ANY ? b : b == ANY || a == b ? a : NIL;
 }
 
-/// What lies below a node.
-struct Node {
-    Bounds box = Bounds::nothing();
-    std::int32_t patch = ANY;  // of all triangles; NIL: not of one
+/// Groups of eight boxes, those of the triangles of a leaf or of groups of the level below: group k
+/// holds the boxes of the groups 8 k to 8 k + 7.
+struct Level {
+    std::vector<BoxGroup> groups;
+    std::vector<Bounds> around;   // each group
+    Array<std::int32_t> patches;  // of all triangles below each group; NIL: not of one
 };
 
-/// The triangles in the order of the tree and their boxes, and the nodes over them.
+/// The triangles in the order of the tree, and the levels over them, the lowest first: each of its
+/// groups is a leaf. The highest is one group.
 struct BoxTree {
     Array<std::int32_t> order;  // numbers of the triangles
     Array<Leaf> leaves;
-    std::vector<LeafBoxes> boxes;  // of each leaf
-    std::vector<Node> nodes;
-    std::size_t first_leaf = 1;  // number of its node; as many leaves have room
+    std::vector<Level> levels;
 };
 
 Array<FramePoint> in_frame(std::span<const Point3> points) {
@@ -186,11 +179,11 @@ Array<std::int32_t> sorted_numbers(const Array<std::int64_t>& places) {
     Array<std::int32_t> order(places.size()), next(places.size());
     std::iota(order.begin(), order.end(), 0);
     for (int shift = 0; shift < ALL_BITS; shift += BITS) {
-        const auto digit = [&](std::int32_t i) { return places[i] >> shift & (DIGITS - 1); };
+        const auto digit = [&](std::int64_t place) { return place >> shift & (DIGITS - 1); };
         Array<std::size_t> first(DIGITS + 1, 0);
-        for (const std::int32_t i : order) ++first[digit(i) + 1];
+        for (const std::int64_t place : places) ++first[digit(place) + 1];
         for (std::int64_t d = 0; d < DIGITS; ++d) first[d + 1] += first[d];
-        for (const std::int32_t i : order) next[first[digit(i)]++] = i;
+        for (const std::int32_t i : order) next[first[digit(places[i])]++] = i;
         std::swap(order, next);
     }
     return order;
@@ -223,7 +216,7 @@ Array<Leaf> leaves_over(const Array<std::int32_t>& order, std::span<const std::i
     Array<Leaf> leaves;
     for (std::size_t k = 0; k < order.size();) {
         Leaf leaf{k, k + 1, patch_of(k)};
-        while (leaf.end < std::min(k + LEAF, order.size()) && patch_of(leaf.end) == leaf.patch)
+        while (leaf.end < std::min(k + WIDTH, order.size()) && patch_of(leaf.end) == leaf.patch)
             ++leaf.end;
         leaves.push_back(leaf);
         k = leaf.end;
@@ -231,22 +224,40 @@ Array<Leaf> leaves_over(const Array<std::int32_t>& order, std::span<const std::i
     return leaves;
 }
 
-/// The nodes over the leaves, from these up. Node k is that before the k-th: 1 is the root.
-void add_nodes(BoxTree& tree) {
-    while (tree.first_leaf < tree.leaves.size()) tree.first_leaf *= 2;
-    tree.nodes.resize(2 * tree.first_leaf);
+/// The leaves as groups of boxes.
+Level leaf_level(const BoxTree& tree, const Array<FramePoint>& points,
+                 std::span<const TriangleCorners> triangles) {
+    Level level;
+    level.groups.resize(tree.leaves.size());
+    level.around.reserve(tree.leaves.size());
     for (std::size_t k = 0; k < tree.leaves.size(); ++k) {
-        Node& node = tree.nodes[tree.first_leaf + k];
-        node.patch = tree.leaves[k].patch;
-        const std::size_t count = tree.leaves[k].end - tree.leaves[k].first;
-        for (std::size_t place = 0; place < count; ++place) node.box.add(tree.boxes[k][place]);
+        const Leaf& leaf = tree.leaves[k];
+        Bounds all = Bounds::nothing();
+        for (std::size_t t = leaf.first; t < leaf.end; ++t) {
+            const TriangleCorners& corners = triangles[tree.order[t]];
+            Bounds box = Bounds::nothing();
+            for (const Vertex corner : {corners.a, corners.b, corners.c}) box.add(points[corner]);
+            level.groups[k].set(t - leaf.first, box);
+            all.add(box);
+        }
+        level.around.push_back(all);
+        level.patches.push_back(leaf.patch);
     }
-    for (std::size_t k = tree.first_leaf; k-- > 1;) {
-        const Node &one = tree.nodes[2 * k], &other = tree.nodes[2 * k + 1];
-        tree.nodes[k] = one;
-        tree.nodes[k].box.add(other.box);
-        tree.nodes[k].patch = common_patch(one.patch, other.patch);
+    return level;
+}
+
+/// Groups over those of a level.
+Level level_over(const Level& below) {
+    Level level;
+    level.groups.resize((below.groups.size() + WIDTH - 1) / WIDTH);
+    level.around.resize(level.groups.size(), Bounds::nothing());
+    level.patches.resize(level.groups.size(), ANY);
+    for (std::size_t k = 0; k < below.groups.size(); ++k) {
+        level.groups[k / WIDTH].set(k % WIDTH, below.around[k]);
+        level.around[k / WIDTH].add(below.around[k]);
+        level.patches[k / WIDTH] = common_patch(level.patches[k / WIDTH], below.patches[k]);
     }
+    return level;
 }
 
 BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
@@ -255,15 +266,9 @@ BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorner
     const Array<FramePoint> framed = in_frame(points);
     tree.order = patch_by_patch(sorted_numbers(curve_places(framed, triangles)), patches);
     tree.leaves = leaves_over(tree.order, patches);
-    tree.boxes.resize(tree.leaves.size());
-    for (std::size_t k = 0; k < tree.leaves.size(); ++k)
-        for (std::size_t t = tree.leaves[k].first; t < tree.leaves[k].end; ++t) {
-            const TriangleCorners& corners = triangles[tree.order[t]];
-            Bounds box = Bounds::nothing();
-            for (const Vertex corner : {corners.a, corners.b, corners.c}) box.add(framed[corner]);
-            tree.boxes[k].set(t - tree.leaves[k].first, box);
-        }
-    add_nodes(tree);
+    tree.levels.push_back(leaf_level(tree, framed, triangles));
+    while (tree.levels.back().groups.size() > 1)
+        tree.levels.push_back(level_over(tree.levels.back()));
     return tree;
 }
 
@@ -274,7 +279,7 @@ bool are_one_patch(std::span<const std::int32_t> patches) {
                        [&](std::int32_t patch) { return patch == patches[0]; });
 }
 
-/// Looks for pairs below two nodes: 2 k and 2 k + 1 are the children of k.
+/// Looks for pairs below two groups of a level.
 class Search {
   public:
     Search(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
@@ -288,53 +293,56 @@ class Search {
     }
 
     Array<MeetingTriangles> run() {
-        if (most_ > 0) below(1);
+        if (most_ > 0 && !triangles_.empty()) within(tree_.levels.size() - 1, 0);
         return std::move(found_);
     }
 
   private:
     [[nodiscard]] bool is_done() const { return found_.size() >= most_; }
-    [[nodiscard]] const Bounds& box(std::size_t node) const { return tree_.nodes[node].box; }
-    /// Do all triangles below two nodes belong to one patch?
-    [[nodiscard]] bool are_of_one_patch(std::size_t one, std::size_t other) const {
-        const std::int32_t patch = tree_.nodes[one].patch;
-        return patch != NIL && patch == tree_.nodes[other].patch;
+    /// Do all triangles below two groups of a level belong to one patch?
+    [[nodiscard]] bool are_of_one_patch(std::size_t level, std::size_t a, std::size_t b) const {
+        const Array<std::int32_t>& patches = tree_.levels[level].patches;
+        return patches[a] != NIL && patches[a] == patches[b];
     }
 
-    /// What lies below a node, with itself.
-    void below(std::size_t node) {
-        if (are_of_one_patch(node, node)) return;
-        if (node >= tree_.first_leaf) return in_leaves(node, node);
-        below(2 * node);
-        if (may_meet(2 * node, 2 * node + 1)) between(2 * node, 2 * node + 1);
-        below(2 * node + 1);
+    /// What lies below a group, with itself.
+    void within(std::size_t level, std::size_t group) {
+        if (are_of_one_patch(level, group, group)) return;
+        if (level > 0)
+            for (std::size_t k = 0; k < WIDTH; ++k)
+                if (const std::size_t child = WIDTH * group + k; child < groups_below(level))
+                    within(level - 1, child);
+        between(level, group, group);
+    }
+    [[nodiscard]] std::size_t groups_below(std::size_t level) const {
+        return tree_.levels[level - 1].groups.size();
     }
 
-    [[nodiscard]] bool may_meet(std::size_t one, std::size_t other) const {
-        return overlap(box(one), box(other)) && !are_of_one_patch(one, other);
-    }
-
-    /// What lies below one node with what lies below another, of the same level, that may meet.
-    void between(std::size_t one, std::size_t other) {
-        if (is_done()) return;
-        if (one >= tree_.first_leaf) return in_leaves(one, other);
-        for (const std::size_t a : {2 * one, 2 * one + 1})
-            for (const std::size_t b : {2 * other, 2 * other + 1})
-                if (may_meet(a, b)) between(a, b);
-    }
-
-    /// The pairs of two leaves that meet; of one leaf with itself each pair once.
-    void in_leaves(std::size_t own, std::size_t other) {
-        const std::size_t a = own - tree_.first_leaf, b = other - tree_.first_leaf;
-        if (is_done() || std::max(a, b) >= tree_.leaves.size()) return;
-        const LeafBoxes &here = tree_.boxes[a], &there = tree_.boxes[b];
-        const std::uint32_t near = overlapping(there, box(own));
+    /// What lies below one group with what lies below another that may meet it: pairs of their boxes
+    /// that have a point in common; of a group with itself each pair of two boxes once.
+    void between(std::size_t level, std::size_t own, std::size_t other) {
+        const Level& here = tree_.levels[level];
+        const BoxGroup &a = here.groups[own], &b = here.groups[other];
+        const std::uint32_t near = overlapping(b, here.around[own]);
         if (near == 0) return;
-        for (std::uint32_t left = overlapping(here, box(other)); left != 0; left &= left - 1) {
+        for (std::uint32_t left = overlapping(a, here.around[other]); left != 0; left &= left - 1) {
+            if (is_done()) return;
             const auto place = static_cast<std::size_t>(std::countr_zero(left));
             const std::uint32_t later = own == other ? ~1U << place : ~0U;
-            const std::uint32_t found = near & later & overlapping(there, here[place]);
-            if (found != 0) look_at(tree_.leaves[a].first + place, tree_.leaves[b].first, found);
+            const std::uint32_t found = near & later & overlapping(b, a[place]);
+            if (found == 0) continue;
+            if (level == 0)
+                look_at(tree_.leaves[own].first + place, tree_.leaves[other].first, found);
+            else
+                go_down(level - 1, WIDTH * own + place, WIDTH * other, found);
+        }
+    }
+
+    /// One group with those at some places of a group of the level above: bits of ``places``.
+    void go_down(std::size_t level, std::size_t one, std::size_t first, std::uint32_t places) {
+        for (; places != 0; places &= places - 1) {
+            const std::size_t other = first + static_cast<std::size_t>(std::countr_zero(places));
+            if (!are_of_one_patch(level, one, other)) between(level, one, other);
         }
     }
 

@@ -1,16 +1,16 @@
-// Pairs of triangles that meet, found by a balanced binary tree of boxes.
+// Pairs of triangles that meet, found by a tree of boxes with eight children a node.
 //
-// Triangles are sorted along a space-filling curve; the tree over that order is implicit, a heap:
+// Triangles are sorted along a space-filling curve; the tree over that order is implicit, level by
+// level:
 //
-//                 0                 children of node k: 2k + 1, 2k + 2
-//              /     \              .
-//            1         2            the leaves are the last 2^depth nodes, each holds LEAF
-//           / \       / \           triangles in their order; the last leaves may be empty
-//          3   4     5   6
+//     .---------------.---     the highest level is one group of up to eight boxes
+//     0       ...     7        the boxes of a group lie side by side: a box is compared with all of
+//    / \             / \       them at once. Group k holds those of the groups 8 k to 8 k + 7 of the
+//   0...7   ...   56...63      level below; those of the lowest, the leaves, are of triangles
 //
-// What lies below two nodes of one level is compared where their boxes have a point in common,
-// child with child, and what lies below one node with itself; but not where all of it belongs to one
-// patch that cannot meet itself (graph_patches.hpp).
+// What lies below two groups of one level is compared where their boxes have a point in common,
+// child with child, and what lies below one group with itself; but not where all of it belongs to
+// one patch that cannot meet itself (graph_patches.hpp).
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct MeetingTriangles {
 /// no order that means anything.
 ///
 /// All coordinates are finite. patches: a number for each triangle, or NIL; those of one number do
-/// not meet. The search ends with the two leaves where there are ``most`` pairs or more.
+/// not meet. The search ends where there are ``most`` pairs or a few more.
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
                                           std::span<const std::int32_t> patches, std::size_t most);

@@ -65,10 +65,8 @@ Array<EdgeUse> sorted_uses(std::span<const TriangleCorners> triangles) {
 
 /// From where to where a half-edge runs.
 std::pair<Vertex, Vertex> ends_of(std::span<const TriangleCorners> triangles, std::int32_t e) {
-    const TriangleCorners& t = triangles[e / 3];
-    return e % 3 == 0   ? std::pair(t.a, t.b)
-           : e % 3 == 1 ? std::pair(t.b, t.c)
-                        : std::pair(t.c, t.a);
+    const std::span<const Vertex> corners = corners_in_a_row(triangles);
+    return {corners[e], corners[e % 3 == 2 ? e - 2 : e + 1]};
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ class PatchSearch {
             const Point3 n = normal(t);
             const View view = view_of(n);
             grow(static_cast<std::int32_t>(t), view);
-            prove({members_.data(), members_.size()}, view);
+            if (members_.size() < FEWEST) continue;
+            number_as_patch({members_.data(), members_.size()});
+            keep_if_simple({members_.data(), members_.size()}, view);
         }
         return std::move(patch_);
     }
@@ -76,48 +78,62 @@ class PatchSearch {
         return orient(view(points_[k.a]), view(points_[k.b]), view(points_[k.c])) > 0.0;
     }
 
-    /// Fill ``members_``, across edges, with triangles that face the eye and are in no patch.
+    /// Fill ``members_``, across edges, with triangles that face the eye and are in no patch, and
+    /// ``rim_`` with the sides where it goes no further.
     void grow(std::int32_t seed, const View& view) {
         members_.clear();
+        rim_.clear();
         members_.push_back(seed);
         grown_[seed] = seed;
         if (!faces(seed, view)) return members_.clear();
         for (std::size_t k = 0; k < members_.size(); ++k)
             for (std::int32_t side = 0; side < 3; ++side) {
                 const HalfEdge twin = twins_[3 * members_[k] + side];
-                if (twin == NIL || grown_[twin / 3] != NIL || !faces(twin / 3, view)) continue;
-                grown_[twin / 3] = seed;
-                members_.push_back(twin / 3);
+                const std::int32_t beside = twin == NIL ? NIL : twin / 3;
+                if (beside != NIL && grown_[beside] == seed) continue;
+                if (beside == NIL || grown_[beside] != NIL || !faces(beside, view)) {
+                    add_to_rim(members_[k], side, view);
+                    continue;
+                }
+                grown_[beside] = seed;
+                members_.push_back(beside);
             }
     }
 
-    /// Number triangles as a patch if it is one, else those of both halves: where it winds round an
-    /// axis, parts of it may be.
-    void prove(std::span<const std::int32_t> members, const View& view) {
-        if (members.size() < FEWEST) return;
-        const std::int32_t number = patches_++;
-        for (const std::int32_t t : members) patch_[t] = number;
-        if (is_simple(members, view)) return;
+    void number_as_patch(std::span<const std::int32_t> members) {
+        for (const std::int32_t t : members) patch_[t] = patches_;
+        ++patches_;
+    }
+
+    /// Are triangles with a number of their own, whose rim is gathered, a patch? If not, those of
+    /// both halves may be: where it winds round an axis, parts of it are.
+    void keep_if_simple(std::span<const std::int32_t> members, const View& view) {
+        if (is_simple_rim({rim_.data(), rim_.size()})) return;
         for (const std::int32_t t : members) patch_[t] = NIL;
         const std::size_t half = members.size() / 2;
-        prove(members.first(half), view);
-        prove(members.subspan(half), view);
+        for (const auto part : {members.first(half), members.subspan(half)}) {
+            if (part.size() < FEWEST) continue;
+            number_as_patch(part);
+            gather_rim(part, view);
+            keep_if_simple(part, view);
+        }
     }
 
-    /// Is the rim of triangles that have a number of their own simple?
-    bool is_simple(std::span<const std::int32_t> members, const View& view) {
+    /// The sides of triangles that have a number of their own beside others.
+    void gather_rim(std::span<const std::int32_t> members, const View& view) {
         rim_.clear();
-        for (const std::int32_t t : members) {
-            const TriangleCorners& c = triangles_[t];
-            const Vertex corner[] = {c.a, c.b, c.c};
+        for (const std::int32_t t : members)
             for (std::int32_t side = 0; side < 3; ++side) {
                 const HalfEdge twin = twins_[3 * t + side];
-                if (twin != NIL && patch_[twin / 3] == patch_[t]) continue;
-                const Vertex start = corner[side], end = corner[(side + 1) % 3];
-                rim_.push_back({start, end, view(points_[start]), view(points_[end])});
+                if (twin == NIL || patch_[twin / 3] != patch_[t]) add_to_rim(t, side, view);
             }
-        }
-        return is_simple_rim({rim_.data(), rim_.size()});
+    }
+
+    void add_to_rim(std::int32_t triangle, std::int32_t side, const View& view) {
+        const TriangleCorners& c = triangles_[triangle];
+        const Vertex corner[] = {c.a, c.b, c.c};
+        const Vertex start = corner[side], end = corner[(side + 1) % 3];
+        rim_.push_back({start, end, view(points_[start]), view(points_[end])});
     }
 
     std::span<const Point3> points_;
@@ -126,7 +142,7 @@ class PatchSearch {
     Array<std::int32_t> patch_;    // of each triangle, proved
     Array<std::int32_t> grown_;    // the seed of each triangle
     Array<std::int32_t> members_;  // of the patch that is grown
-    Array<RimEdge> rim_;
+    Array<RimEdge> rim_;           // of the triangles that are looked at
     std::int32_t patches_ = 0;
 };
 

@@ -13,105 +13,145 @@ namespace {
 
 constexpr double DEGREES = 180.0 / std::numbers::pi;
 
-/// The angles of a triangle are atan2(twice_area, x), (y) and (z): they fall as x, y, z rise.
-struct AngleArguments {
-    double twice_area, x, y, z;
-
-    [[nodiscard]] double low() const { return std::min(std::min(x, y), z); }
-    [[nodiscard]] double high() const { return std::max(std::max(x, y), z); }
-
-    /// Is the one between clearly apart from both? Then it needs no arc tangent.
-    [[nodiscard]] bool are_clearly_apart() const {
-        constexpr double CLEARLY = 1e-9;  // of the largest: what rounding of an angle cannot bridge
-        const double between = std::max(std::min(x, y), std::min(std::max(x, y), z));
-        const double apart = CLEARLY * high();
-        return between > 0.0 && high() - between > apart && between - low() > apart;
-    }
-};
-
-/// The shapes of triangles. Arc tangents are gathered: many at once take half the time.
+/// The shapes of triangles, block after block: numbers of one kind lie side by side, so that the
+/// processor takes several triangles at a time, and many arc tangents at once.
 class ShapeMeasure {
   public:
-    explicit ShapeMeasure(std::size_t triangles) {
-        shapes_.area.reserve(triangles);
-        shapes_.alpha.reserve(triangles);
-        shapes_.radius_ratio.reserve(triangles);
-        shapes_.least_angle.reserve(triangles);
-        shapes_.largest_angle.reserve(triangles);
+    ShapeMeasure(std::span<const Point3> points, std::span<const TriangleCorners> triangles)
+        : points_(points), triangles_(triangles) {
+        for (Array<double>* figures : {&shapes_.area, &shapes_.alpha, &shapes_.radius_ratio,
+                                       &shapes_.least_angle, &shapes_.largest_angle})
+            figures->reserve(triangles.size());
     }
 
-    void add(Point3 a, Point3 b, Point3 c) {
-        const Point3 ab = b - a, ac = c - a, bc = c - b;
-        const double twice_area = norm(cross(ab, ac));
-        const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-        const double total = ab2 + bc2 + ac2;
-        if (!(total > 0.0)) {
-            add_figures(0.0, 0.0, 0.0);
-            return gather({0.0, 1.0, 1.0, 1.0});  // no angle
+    TriangleShapes run() {
+        for (std::size_t first = 0; first < triangles_.size(); first += BLOCK) {
+            const std::size_t count = std::min(BLOCK, triangles_.size() - first);
+            take_sides(first, count);
+            take_figures(count);
+            leave_out_points(count);
+            take_angles(count);
+            for (std::size_t k = 0; k < count; ++k) add(k);
         }
-        const double lab = std::sqrt(ab2), lac = std::sqrt(ac2), lbc = std::sqrt(bc2);
-        const double product = lab * lac * lbc * (lab + lac + lbc);
-        // r_in = 2 A / perimeter, r_circum = abc / 4 A
-        const double ratio = product > 0.0 ? 4.0 * twice_area * twice_area / product : 0.0;
-        add_figures(0.5 * twice_area, 2.0 * std::sqrt(3.0) * twice_area / total, ratio);
-        // products of edges, not the law of cosines: its squares cancel in needles
-        gather({twice_area, dot(ab, ac), -dot(ab, bc), dot(ac, bc)});
-    }
-
-    TriangleShapes done() {
-        take_angles();
         return std::move(shapes_);
     }
 
   private:
-    static constexpr std::size_t GATHERED = 256;  // angles
+    static constexpr std::size_t BLOCK = 128;
+    using Numbers = std::array<double, BLOCK>;
+    struct Vectors {
+        Numbers x, y, z;
 
-    void add_figures(double area, double alpha, double radius_ratio) {
-        shapes_.area.push_back(area);
-        shapes_.alpha.push_back(alpha);
-        shapes_.radius_ratio.push_back(radius_ratio);
-    }
-
-    void gather(const AngleArguments& of) {
-        above_[count_] = above_[count_ + 1] = of.twice_area;
-        beside_[count_] = of.high();
-        beside_[count_ + 1] = of.low();
-        arguments_[count_ / 2] = of;
-        count_ += 2;
-        if (count_ == GATHERED) take_angles();
-    }
-
-    void take_angles() {
-        elementary::atan2({above_.data(), count_}, {beside_.data(), count_},
-                          {angles_.data(), count_});
-        for (std::size_t k = 0; k < count_; k += 2) {
-            double least = angles_[k], largest = angles_[k + 1];
-            if (const AngleArguments& of = arguments_[k / 2]; !of.are_clearly_apart()) {
-                const double at_x = elementary::atan2(of.twice_area, of.x);
-                const double at_y = elementary::atan2(of.twice_area, of.y);
-                const double at_z = elementary::atan2(of.twice_area, of.z);
-                least = std::min(std::min(at_x, at_y), at_z);
-                largest = std::max(std::max(at_x, at_y), at_z);
-            }
-            shapes_.least_angle.push_back(least * DEGREES);
-            shapes_.largest_angle.push_back(largest * DEGREES);
+        void set(std::size_t k, Point3 p) {
+            x[k] = p.x;
+            y[k] = p.y;
+            z[k] = p.z;
         }
-        count_ = 0;
+        Point3 operator[](std::size_t k) const { return {x[k], y[k], z[k]}; }
+    };
+
+    void take_sides(std::size_t first, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const TriangleCorners& t = triangles_[first + k];
+            const Point3 a = points_[t.a], b = points_[t.b], c = points_[t.c];
+            ab_.set(k, b - a);
+            ac_.set(k, c - a);
+            bc_.set(k, c - b);
+        }
     }
 
+    /// And the arguments of the angles, which are atan2(twice_area, x), (y) and (z): they fall as x,
+    /// y, z rise. Loops without a condition, as compilers need them here.
+    void take_figures(std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Point3 ab = ab_[k], ac = ac_[k], bc = bc_[k];
+            const double twice_area = norm(cross(ab, ac));
+            const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
+            const double total = ab2 + bc2 + ac2;
+            const double lab = std::sqrt(ab2), lac = std::sqrt(ac2), lbc = std::sqrt(bc2);
+            const double product = lab * lac * lbc * (lab + lac + lbc);
+            area_[k] = 0.5 * twice_area;
+            alpha_[k] = 2.0 * std::sqrt(3.0) * twice_area / total;
+            // r_in = 2 A / perimeter, r_circum = abc / 4 A
+            ratio_[k] = 4.0 * twice_area * twice_area / product;
+            twice_area_[k] = twice_area;
+            // products of edges, not the law of cosines: its squares cancel in needles
+            x_[k] = dot(ab, ac);
+            y_[k] = -dot(ab, bc);
+            z_[k] = dot(ac, bc);
+            total_[k] = total;
+            product_[k] = product;
+        }
+    }
+
+    /// What has no size has no shape, and its angles no arguments.
+    void leave_out_points(std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool some = total_[k] > 0.0;
+            const double area = area_[k], alpha = alpha_[k], ratio = ratio_[k];
+            const double twice_area = twice_area_[k], x = x_[k], y = y_[k], z = z_[k];
+            area_[k] = some ? area : 0.0;
+            alpha_[k] = some ? alpha : 0.0;
+            ratio_[k] = product_[k] > 0.0 ? ratio : 0.0;
+            twice_area_[k] = some ? twice_area : 0.0;
+            x_[k] = some ? x : 1.0;
+            y_[k] = some ? y : 1.0;
+            z_[k] = some ? z : 1.0;
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const double x = x_[k], y = y_[k], z = z_[k];
+            const double less = y < x ? y : x, more = x < y ? y : x;
+            low_[k] = z < less ? z : less;
+            high_[k] = more < z ? z : more;
+        }
+    }
+
+    void take_angles(std::size_t count) {
+        elementary::atan2({twice_area_.data(), count}, {high_.data(), count},
+                          {least_.data(), count});
+        elementary::atan2({twice_area_.data(), count}, {low_.data(), count},
+                          {largest_.data(), count});
+        for (std::size_t k = 0; k < count; ++k) {
+            if (is_clearly_between(k)) continue;
+            const double at_x = elementary::atan2(twice_area_[k], x_[k]);
+            const double at_y = elementary::atan2(twice_area_[k], y_[k]);
+            const double at_z = elementary::atan2(twice_area_[k], z_[k]);
+            least_[k] = std::min(std::min(at_x, at_y), at_z);
+            largest_[k] = std::max(std::max(at_x, at_y), at_z);
+        }
+    }
+
+    /// Is one of x, y, z clearly apart from both others, between them? Then its angle needs no arc
+    /// tangent.
+    [[nodiscard]] bool is_clearly_between(std::size_t k) const {
+        constexpr double CLEARLY = 1e-9;  // of the largest: what rounding of an angle cannot bridge
+        const double x = x_[k], y = y_[k], z = z_[k];
+        const double between = std::max(std::min(x, y), std::min(std::max(x, y), z));
+        const double apart = CLEARLY * high_[k];
+        return between > 0.0 && high_[k] - between > apart && between - low_[k] > apart;
+    }
+
+    void add(std::size_t k) {
+        shapes_.area.push_back(area_[k]);
+        shapes_.alpha.push_back(alpha_[k]);
+        shapes_.radius_ratio.push_back(ratio_[k]);
+        shapes_.least_angle.push_back(least_[k] * DEGREES);
+        shapes_.largest_angle.push_back(largest_[k] * DEGREES);
+    }
+
+    std::span<const Point3> points_;
+    std::span<const TriangleCorners> triangles_;
     TriangleShapes shapes_;
-    std::array<double, GATHERED> above_, beside_, angles_;
-    std::array<AngleArguments, GATHERED / 2> arguments_;
-    std::size_t count_ = 0;
+    Vectors ab_, ac_, bc_;  // of a block of triangles, as all below
+    Numbers area_, alpha_, ratio_, total_, product_;
+    Numbers twice_area_, x_, y_, z_, low_, high_, least_, largest_;
 };
 
 }  // namespace
 
 TriangleShapes triangle_shapes(std::span<const Point3> points,
                                std::span<const TriangleCorners> triangles) {
-    ShapeMeasure measure(triangles.size());
-    for (const auto& [a, b, c] : triangles) measure.add(points[a], points[b], points[c]);
-    return measure.done();
+    return ShapeMeasure(points, triangles).run();
 }
 
 Array<double> interpolate(std::span<const double> corner_values, std::size_t dimension,

@@ -8,6 +8,47 @@ namespace {
 // of the knots' range: an end of the part in use this near to a knot is that knot
 constexpr double SNAP = 1e-12;
 
+// Above the diagonal of the table is table[r, j] = N_{span-j+r} of degree j, below it table[j, r]
+// = the knots' distance that the function of degree j is divided by. No such distance is less
+// than the span, which is not empty. knots: those behind the span.
+template <class Number>
+void take_derivatives(const double* knots, std::int64_t degree, Number t, int order, Number* table,
+                      Number* out) {
+    const std::int64_t columns = degree + 1;
+    table[0] = Number{} + 1.0;
+    for (std::int64_t j = 1; j <= degree; ++j) {
+        Number saved{};
+        for (std::int64_t r = 0; r < j; ++r) {
+            const double low = knots[r - j], high = knots[r];
+            const Number width = Number{} + (high - low);
+            table[j * columns + r] = width;
+            const Number part = table[r * columns + j - 1] / width;
+            table[r * columns + j] = saved + (high - t) * part;
+            saved = (t - low) * part;
+        }
+        table[j * columns + j] = saved;
+    }
+    for (std::int64_t r = 0; r < columns; ++r) out[r] = table[r * columns + degree];
+    for (int k = 1; k <= order; ++k) {
+        Number* row = out + k * columns;
+        if (k > degree) {
+            for (std::int64_t r = 0; r < columns; ++r) row[r] = Number{};
+            continue;
+        }
+        // N'_i of degree q = q (N_i / width_i - N_{i+1} / width_{i+1}), both of degree q - 1
+        for (std::int64_t r = 0; r <= degree - k; ++r) row[r] = table[r * columns + degree - k];
+        for (std::int64_t q = degree - k + 1; q <= degree; ++q) {
+            Number left{};
+            for (std::int64_t r = 0; r < q; ++r) {
+                const Number right = row[r] / table[q * columns + r];
+                row[r] = static_cast<double>(q) * (left - right);
+                left = right;
+            }
+            row[q] = static_cast<double>(q) * left;
+        }
+    }
+}
+
 }  // namespace
 
 /// The span of t by bisection; beyond the ends the outermost span that is not empty.
@@ -56,45 +97,15 @@ KnotPlace SplineBasis::locate(double t) const {
     return {span, local};
 }
 
-// Above the diagonal of the table is table[r, j] = N_{span-j+r} of degree j, below it table[j, r]
-// = the knots' distance that the function of degree j is divided by. No such distance is less
-// than the span, which is not empty.
 void SplineBasis::derivatives(KnotPlace place, int order, std::span<double> table,
                               std::span<double> out) const {
-    const std::int64_t columns = degree_ + 1;
-    const double t = place.t, *knots = knots_.data() + place.span + 1;
-    double* T = table.data();
-    T[0] = 1.0;
-    for (std::int64_t j = 1; j <= degree_; ++j) {
-        double saved = 0.0;
-        for (std::int64_t r = 0; r < j; ++r) {
-            const double low = knots[r - j], high = knots[r], width = high - low;
-            T[j * columns + r] = width;
-            const double part = T[r * columns + j - 1] / width;
-            T[r * columns + j] = saved + (high - t) * part;
-            saved = (t - low) * part;
-        }
-        T[j * columns + j] = saved;
-    }
-    for (std::int64_t r = 0; r < columns; ++r) out[r] = T[r * columns + degree_];
-    for (int k = 1; k <= order; ++k) {
-        double* row = out.data() + k * columns;
-        if (k > degree_) {
-            for (std::int64_t r = 0; r < columns; ++r) row[r] = 0.0;
-            continue;
-        }
-        // N'_i of degree q = q (N_i / width_i - N_{i+1} / width_{i+1}), both of degree q - 1
-        for (std::int64_t r = 0; r <= degree_ - k; ++r) row[r] = T[r * columns + degree_ - k];
-        for (std::int64_t q = degree_ - k + 1; q <= degree_; ++q) {
-            double left = 0.0;
-            for (std::int64_t r = 0; r < q; ++r) {
-                const double right = row[r] / T[q * columns + r];
-                row[r] = static_cast<double>(q) * (left - right);
-                left = right;
-            }
-            row[q] = static_cast<double>(q) * left;
-        }
-    }
+    take_derivatives(knots_.data() + place.span + 1, degree_, place.t, order, table.data(),
+                     out.data());
+}
+
+void SplineBasis::derivatives(std::int64_t span, TwoNumbers t, int order,
+                              std::span<TwoNumbers> table, std::span<TwoNumbers> out) const {
+    take_derivatives(knots_.data() + span + 1, degree_, t, order, table.data(), out.data());
 }
 
 }  // namespace surfmesh

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "values/array.hpp"
+#include "values/two_numbers.hpp"
 
 namespace surfmesh {
 
@@ -56,6 +57,9 @@ class SplineBasis {
     /// degree + 1 derivatives k. table: (degree + 1)^2 numbers to work in.
     void derivatives(KnotPlace place, int order, std::span<double> table,
                      std::span<double> out) const;
+    /// The same of two parameters in one span.
+    void derivatives(std::int64_t span, TwoNumbers t, int order, std::span<TwoNumbers> table,
+                     std::span<TwoNumbers> out) const;
 
     /// The spans that a range meets; all of them where it goes beyond the knots.
     [[nodiscard]] SpanRange spans(double low, double high) const;
@@ -75,10 +79,12 @@ class SplineBasis {
     SplineLimits limits_;
 };
 
-/// Memory for the functions of a basis and their derivatives, and to work in.
-class SplineFunctions {
+/// Memory for the functions of a basis and their derivatives, and to work in: of one parameter, or
+/// of two.
+template <class Number>
+class FunctionsOfSpline {
   public:
-    SplineFunctions(std::size_t degree, int order)
+    FunctionsOfSpline(std::size_t degree, int order)
         : columns_(degree + 1),
           table_(columns_ * columns_),
           values_(static_cast<std::size_t>(order + 1) * columns_),
@@ -88,15 +94,22 @@ class SplineFunctions {
         basis.derivatives(place, order_, {table_.data(), table_.size()},
                           {values_.data(), values_.size()});
     }
+    void evaluate(const SplineBasis& basis, std::int64_t span, TwoNumbers t) {
+        basis.derivatives(span, t, order_, {table_.data(), table_.size()},
+                          {values_.data(), values_.size()});
+    }
     /// Derivative k of all functions of the span.
-    [[nodiscard]] const double* operator[](int k) const {
+    [[nodiscard]] const Number* operator[](int k) const {
         return values_.data() + static_cast<std::size_t>(k) * columns_;
     }
 
   private:
     std::size_t columns_;
-    Array<double> table_, values_;
+    Array<Number> table_, values_;
     int order_;
 };
+
+using SplineFunctions = FunctionsOfSpline<double>;
+using PairsOfSplineFunctions = FunctionsOfSpline<TwoNumbers>;
 
 }  // namespace surfmesh

@@ -42,6 +42,19 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
   private:
     template <int order, bool rational>
     void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;
+    template <int order, bool rational, class Number>
+    auto sums_at(std::int64_t corner, const FunctionsOfSpline<Number>& by_u,
+                 const FunctionsOfSpline<Number>& by_v) const;
+
+    /// The first control point that counts in two spans, and the one in the middle of those.
+    [[nodiscard]] std::int64_t corner_at(std::int64_t u_span, std::int64_t v_span) const {
+        return (u_span - static_cast<std::int64_t>(u_.degree())) * columns_ + v_span -
+               static_cast<std::int64_t>(v_.degree());
+    }
+    [[nodiscard]] std::int64_t middle_from(std::int64_t corner) const {
+        return corner + static_cast<std::int64_t>(u_.degree()) / 2 * columns_ +
+               static_cast<std::int64_t>(v_.degree()) / 2;
+    }
 
     struct Work;
     struct ThirdWork;

@@ -37,11 +37,13 @@ def unexpected(mesh: SurfaceMesh, topo: Topology) -> Unexpected:
         return Unexpected(crowded, none, pinched, none, clashing, none, False)
     uses, models = model.uses(mesh)
     table = mesh.connectivity
-    crowded = np.flatnonzero(table.uses > np.where(models > 0, np.maximum(uses, 2), 2))
-    bare = np.flatnonzero((models == 1) & (table.uses < uses))
+    crowded = crowded[table.uses[crowded] > np.where(models[crowded] > 0, uses[crowded], 2)]
+    bare = np.flatnonzero(table.uses < uses)
+    bare = bare[models[bare] == 1]
     fans, vertices = model.fans(len(mesh.points))
-    pinched = np.flatnonzero(topo.fans > np.maximum(fans, 1))
-    joined = np.flatnonzero((vertices == 1) & (topo.fans < fans))
+    pinched = pinched[topo.fans[pinched] > fans[pinched]]
+    joined = np.flatnonzero(topo.fans < fans)
+    joined = joined[vertices[joined] == 1]
     sheets = np.zeros(len(clashing), bool)
     if mesh.solid_ids is not None:
         beside = mesh.solid_ids[table.half_edges[clashing] // 3]

@@ -17,7 +17,6 @@ from surfmesh.quality.measures.tolerances import (
     exceeds_angle,
     exceeds_chord,
 )
-from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def by_face(measured: Measurements) -> FaceRows:
@@ -36,7 +35,7 @@ def by_face(measured: Measurements) -> FaceRows:
     count, exact = len(numbers), measured.facts.faces
     rows = faces.astype(np.int32, copy=False)
     triangles, area, alpha_sum, alpha_min = core.face_shapes(rows, shape.area, shape.alpha, count)
-    size, target = _sizes(mesh, rows, count, measured.lengths)
+    size, target = _sizes(measured, rows, count)
     limits: dict[int, list[str]] = {}
     for limit in measured.limits:
         limits.setdefault(limit.face, []).append(str(limit))
@@ -91,12 +90,11 @@ def _dihedrals(measured: Measurements, count: int) -> FaceDihedrals | None:
 
 
 def _sizes(
-    mesh: SurfaceMesh, faces: NDArray[np.int32], count: int, lengths: NDArray[np.float64]
+    measured: Measurements, faces: NDArray[np.int32], count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Mean length of the edges of each face, and mean target size of them."""
-    sides = mesh.connectivity.half_edges
-    reached = core.face_edge_means(faces, sides, lengths, count)
-    if mesh.sizes is None:
+    sides, sizes = measured.mesh.connectivity.half_edges, measured.edge_sizes
+    reached = core.face_edge_means(faces, sides, measured.lengths, count)
+    if sizes is None:
         return reached, np.zeros(count)
-    wanted, _ = core.edge_sizes(mesh.edges, mesh.sizes)
-    return reached, core.face_edge_means(faces, sides, wanted, count)
+    return reached, core.face_edge_means(faces, sides, sizes.mean, count)

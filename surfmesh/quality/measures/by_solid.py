@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import enclosed_volumes, solid_counts
+from surfmesh._core.quality import enclosed_volumes, face_shapes, solid_counts
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import around_solids
 from surfmesh.quality.measures.topology import Topology
@@ -48,8 +48,8 @@ def by_solid(
     if not count:
         return ()
     around, rows, solid = around_solids(mesh)
-    triangles = np.bincount(solid, minlength=count)
-    area = np.bincount(solid, shape.area[rows], count)
+    own_area = shape.area if around is mesh.triangles else shape.area[rows]
+    triangles, area, _, _ = face_shapes(solid, own_area, own_area, count)
     apexes = _first_corners(mesh, around, solid, count)
     volume = enclosed_volumes(mesh.points, around, solid, apexes)
     if bulges is not None:
@@ -86,6 +86,10 @@ def _first_corners(
     mesh: SurfaceMesh, around: NDArray[np.int32], solid: NDArray[np.int32], count: int
 ) -> NDArray[np.float64]:
     """(count, 3) a point of each solid: volumes to one far away cancel in rounding."""
+    if not len(around):
+        return np.zeros((count, 3))
+    if count == 1:
+        return mesh.points[around[:1, 0]]
     first = np.full(count, -1)
     first[solid[::-1]] = np.arange(len(solid))[::-1]  # the last that is written stays: the first
     return np.where(first[:, None] < 0, 0.0, mesh.points[around[first, 0]])

@@ -22,18 +22,31 @@ def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
     return quality.edge_lengths(mesh.points, mesh.edges)
 
 
-def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64] | None:
+class EdgeSizes(NamedTuple):
+    """Of the target sizes at both ends of each edge."""
+
+    mean: NDArray[np.float64]  # (ne,)
+    apart: NDArray[np.float64]  # (ne,) by how much they differ
+
+
+def edge_sizes(mesh: SurfaceMesh) -> EdgeSizes | None:
+    """None where there are none."""
+    return None if mesh.sizes is None else EdgeSizes(*quality.edge_sizes(mesh.edges, mesh.sizes))
+
+
+def metric_lengths(
+    mesh: SurfaceMesh, lengths: NDArray[np.float64], sizes: EdgeSizes | None
+) -> NDArray[np.float64] | None:
     """(ne,) length of pq over the mean of the target sizes at p and q; None where there are none.
 
     Where sizes are anisotropic, of those in the direction of pq.
     """
-    sizes, corners = mesh.sizes, mesh.parametrisation
+    corners = mesh.parametrisation
     if sizes is None:
         return None
     root = None if corners is None else corners.metric_root_3d
     if root is None or corners is None:
-        mean, _ = quality.edge_sizes(mesh.edges, sizes)
-        return lengths / mean
+        return lengths / sizes.mean
     metric = np.empty(len(lengths))
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
@@ -91,32 +104,33 @@ class SizeGrowth(NamedTuple):
     point: Point  # middle of that edge
 
 
-def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
+def size_growth(
+    mesh: SurfaceMesh, lengths: NDArray[np.float64], sizes: EdgeSizes | None, slope: float
+) -> SizeGrowth | None:
     """Growth of the target sizes over the edges of the mesh; None as for ``growth_of_edges``."""
-    over = growth_of_edges(mesh, lengths, slope)
+    over = growth_of_edges(mesh, lengths, sizes, slope)
     if over is None:
         return None
     worst = int(over.argmax())
     place = mesh.points[mesh.edges[worst]].mean(axis=0)
-    fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
+    fraction = float(np.count_nonzero(over > 1.0 + GROWTH_SLACK) / len(over))
     return SizeGrowth(fraction, float(over[worst]), as_point(place))
 
 
 def growth_of_edges(
-    mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float
+    mesh: SurfaceMesh, lengths: NDArray[np.float64], sizes: EdgeSizes | None, slope: float
 ) -> NDArray[np.float64] | None:
     """Growth of the target sizes over each edge (k,), in any direction; 1 is what is allowed.
 
     Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
     those along the edge are compared. None without sizes or edges of a length.
     """
-    sizes, corners = mesh.sizes, mesh.parametrisation
+    corners = mesh.parametrisation
     if sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
         return None
     root = None if corners is None else corners.metric_root_3d
     if root is None or corners is None:
-        _, apart = quality.edge_sizes(mesh.edges, sizes)
-        return _finite(apart, slope * lengths)
+        return _finite(sizes.apart, slope * lengths)
     over = np.empty(len(lengths))
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
@@ -132,5 +146,7 @@ def _finite(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float6
     """(k,) quotients a / b; 0 where they are none."""
     with np.errstate(divide="ignore", invalid="ignore"):
         over = a / b
-    over[~np.isfinite(over)] = 0.0
+    finite = np.isfinite(over)
+    if not finite.all():
+        over[~finite] = 0.0
     return over

@@ -26,9 +26,11 @@ from surfmesh.quality.measures.folds import Folds, folds
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
 from surfmesh.quality.measures.lengths import (
+    EdgeSizes,
     Growth,
     SizeGrowth,
     edge_lengths,
+    edge_sizes,
     growth,
     metric_lengths,
     size_growth,
@@ -113,9 +115,14 @@ class Measurements:
         return edge_lengths(self.mesh)
 
     @cached_property
+    def edge_sizes(self) -> EdgeSizes | None:
+        """The target sizes at the ends of its edges."""
+        return edge_sizes(self.mesh)
+
+    @cached_property
     def metric_lengths(self) -> NDArray[np.float64] | None:
         """(ne,) the same over the target sizes."""
-        return metric_lengths(self.mesh, self.lengths)
+        return metric_lengths(self.mesh, self.lengths, self.edge_sizes)
 
     @cached_property
     def growth(self) -> Growth:
@@ -129,7 +136,7 @@ class Measurements:
         slope = None if self.mesh.sizing is None else self.mesh.sizing.gradient
         if slope is None or not self.finite:
             return None
-        return size_growth(self.mesh, self.lengths, slope)
+        return size_growth(self.mesh, self.lengths, self.edge_sizes, slope)
 
     @cached_property
     def deviation(self) -> Deviation | None:

@@ -106,6 +106,20 @@ def test_all_pairs_of_a_soup(count, size, seed):
     assert [tuple(pair) for pair in meeting_pairs(mesh)] == slow.meeting_pairs(points, triangles)
 
 
+@settings(max_examples=5)
+@given(st.integers(0, 600), st.floats(0.02, 0.2), seeds)
+def test_pairs_below_several_levels_of_the_tree(count, size, seed):
+    rng = np.random.default_rng(seed)
+    corners = rng.uniform(size=(count, 1, 3)) ** 3 + size * rng.normal(size=(count, 3, 3))
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    near = (low[:, None] <= high).all(axis=2) & (low <= high[:, None]).all(axis=2)
+    pairs = np.argwhere(np.triu(near, 1))
+    expected = [(a, b) for a, b in pairs.tolist() if triangles_meet(corners[[a, b]].reshape(6, 3))]
+    triangles = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+    found = meeting_triangles(corners.reshape(-1, 3), triangles, 10**6)
+    assert sorted(map(tuple, found.tolist())) == expected
+
+
 def test_many_pairs():
     count = 150  # triangles that all go through the middle
     rng = np.random.default_rng(0)

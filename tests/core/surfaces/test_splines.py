@@ -212,3 +212,19 @@ def test_weights_of_another_number_are_refused():
         surfaces.spline_surface(
             domain, knots, knots, np.zeros((2, 2, 3)), np.ones((2, 3)), (0.0, 0.0)
         )
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.integers(1, 5), st.integers(1, 5), st.booleans(), st.integers(0, 10_000))
+def test_points_of_a_block_are_those_of_each_alone(degree_u, degree_v, rational, seed):
+    """Two that follow each other are computed at once where they lie in one span."""
+    rng = np.random.default_rng(seed)
+    knots = [random_knots(rng, degree, 3) for degree in (degree_u, degree_v)]
+    shape = [len(one) - degree - 1 for one, degree in zip(knots, (degree_u, degree_v))]
+    control = rng.uniform(0.5, 1.0, (*shape, 4 if rational else 3))
+    uv = rng.choice(rng.uniform(0.0, 1.0, 12), (40, 2))  # some parameters again and again
+    for order in range(4):
+        whole = surface(*knots, control, uv, order)
+        alone = [surface(*knots, control, uv[k : k + 1], order) for k in range(len(uv))]
+        for number, values in enumerate(whole):
+            np.testing.assert_array_equal(values, np.concatenate([one[number] for one in alone]))

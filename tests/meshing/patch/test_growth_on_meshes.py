@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.quality.measures.lengths import growth_of_edges
+from surfmesh.quality.measures.lengths import edge_sizes, growth_of_edges
 
 
 def growth_over_allowed(mesh):
     lengths = np.linalg.norm(np.diff(mesh.points[mesh.edges], axis=1)[:, 0], axis=1)
-    return growth_of_edges(mesh, lengths, mesh.sizing.gradient)
+    return growth_of_edges(mesh, lengths, edge_sizes(mesh), mesh.sizing.gradient)
 
 
 @pytest.mark.parametrize(
