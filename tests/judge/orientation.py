@@ -11,15 +11,28 @@ a thin wall's other side is not taken for the triangle's own."""
 NEAR = 16
 
 
-def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh) -> int:
-    """How many triangles of the mesh look against the true ones near them."""
+def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh, chord: float) -> int:
+    """How many triangles of the mesh look against all true ones near them: the nearest ones, and
+    those within the chord. Walls may be thinner than that."""
     centres, own = mesh.triangles_center, _unit(mesh.triangles_cross)
     true, middles = _unit(truth.triangles_cross), truth.triangles_center
     cell, _ = pyvista.wrap(truth).find_closest_cell(centres, return_closest_point=True)
     doubtful = np.flatnonzero(np.einsum("ij,ij->i", own, true[cell]) < AGAINST[0])
     _, found = cKDTree(middles).query(centres[doubtful], k=min(NEAR, len(middles)))
     cosines = np.einsum("ij,ikj->ik", own[doubtful], true[found])
-    return int((cosines.max(axis=1) < AGAINST[1]).sum())
+    against = doubtful[cosines.max(axis=1) < AGAINST[1]]
+    return sum(
+        _distance(centres[k], truth, true @ own[k] >= AGAINST[1]) > chord for k in against.tolist()
+    )
+
+
+def _distance(point: np.ndarray, truth: trimesh.Trimesh, chosen: np.ndarray) -> float:
+    """From a point to those of the true triangles."""
+    if not chosen.any():
+        return float("inf")
+    some = pyvista.wrap(trimesh.Trimesh(truth.vertices, truth.faces[chosen], process=False))
+    _, foot = some.find_closest_cell(point, return_closest_point=True)
+    return float(np.linalg.norm(foot - point))
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

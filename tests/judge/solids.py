@@ -61,7 +61,7 @@ def judged(
         if count:
             faults.append(f"{count} {what}")
     truth = _tessellated(shape, FINE * chord)
-    against = reversed_triangles(mesh, truth)
+    against = reversed_triangles(mesh, truth, chord)
     if against:
         faults.append(f"{against} triangles look the wrong way")
     there, back = farthest(mesh, truth) / chord, farthest(truth, mesh) / chord
