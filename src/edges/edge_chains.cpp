@@ -13,7 +13,7 @@ constexpr double LEAST = std::numeric_limits<double>::min();  // of a squared le
 
 }  // namespace
 
-EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which) {
+EdgeChain chain_of(const SampledCurves& edges, std::span<const DirectedEdge> which) {
     EdgeChain chain;
     Point3 last{};
     std::int64_t place = 0;

@@ -37,7 +37,7 @@ struct SampleRows {
 };
 
 /// The same with their points and the curves that they lie on.
-struct SampledEdges : SampleRows {
+struct SampledCurves : SampleRows {
     std::span<const Point3> points;
     const CurvePieces& curves;
 };
@@ -60,7 +60,7 @@ struct EdgeChain {
 };
 
 /// The chain of some edges; empty where none of them has samples.
-EdgeChain chain_of(const SampledEdges& edges, std::span<const DirectedEdge> which);
+EdgeChain chain_of(const SampledCurves& edges, std::span<const DirectedEdge> which);
 
 /// Segments of a chain that follow each other, from ``first`` to before ``last``.
 struct ChainPart {

@@ -72,7 +72,7 @@ class RunSearch {
     std::vector<std::size_t> order_;
 };
 
-MateRuns runs_of_pair(const SampledEdges& edges, const SideBySide& pairs, std::size_t pair) {
+MateRuns runs_of_pair(const SampledCurves& edges, const SideBySide& pairs, std::size_t pair) {
     MateRuns found;
     const auto chain = [&](std::int64_t k) {
         const auto start = static_cast<std::size_t>(pairs.first[k]);
@@ -96,7 +96,7 @@ void append(Array<T>& all, const Array<T>& some) {
 
 }  // namespace
 
-MateRuns mate_runs(const SampledEdges& edges, const SideBySide& pairs) {
+MateRuns mate_runs(const SampledCurves& edges, const SideBySide& pairs) {
     std::vector<MateRuns> of_pair(pairs.own.size());
     for_each_block(of_pair.size(), PAIRS_AT_ONCE, [&](std::size_t from, std::size_t to) {
         for (std::size_t pair = from; pair < to; ++pair)

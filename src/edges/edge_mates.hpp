@@ -36,7 +36,7 @@ struct SideBySide {
 };
 
 /// The runs of one chain of each pair along the other.
-MateRuns mate_runs(const SampledEdges& edges, const SideBySide& pairs);
+MateRuns mate_runs(const SampledCurves& edges, const SideBySide& pairs);
 
 /// Sizes at samples of edges, lowered to those of their mates, run after run.
 Array<double> lowered_to_mates(const SampleRows& samples, const MateRuns& runs,

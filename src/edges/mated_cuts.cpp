@@ -33,7 +33,7 @@ struct CutEdge {
 
 class Mating {
   public:
-    Mating(const SampledEdges& samples, const MateRuns& runs, const MatedEdges& edges,
+    Mating(const SampledCurves& samples, const MateRuns& runs, const MatedEdges& edges,
            std::span<const double> sizes)
         : samples_(samples),
           runs_(runs),
@@ -276,7 +276,7 @@ class Mating {
         return found;
     }
 
-    const SampledEdges& samples_;
+    const SampledCurves& samples_;
     const MateRuns& runs_;
     const MatedEdges& edges_;
     std::span<const double> sizes_;
@@ -289,7 +289,7 @@ class Mating {
 
 }  // namespace
 
-MatedCuts mated_cuts(const SampledEdges& samples, const MateRuns& runs, const MatedEdges& edges,
+MatedCuts mated_cuts(const SampledCurves& samples, const MateRuns& runs, const MatedEdges& edges,
                      std::span<const double> sizes) {
     return Mating(samples, runs, edges, sizes).cuts();
 }

@@ -36,7 +36,7 @@ struct MatedCuts {
 };
 
 /// Of all edges with a run or with one along them. sizes: at the samples, graded.
-MatedCuts mated_cuts(const SampledEdges& samples, const MateRuns& runs, const MatedEdges& edges,
+MatedCuts mated_cuts(const SampledCurves& samples, const MateRuns& runs, const MatedEdges& edges,
                      std::span<const double> sizes);
 
 }  // namespace surfmesh

@@ -24,7 +24,7 @@ constexpr std::size_t FACES_AT_ONCE = 4;
 /// One face, and whether it is narrow.
 class NarrowSearch {
   public:
-    NarrowSearch(const SampledEdges& edges, const FaceLoops& loops, const NarrowRequest& asked,
+    NarrowSearch(const SampledCurves& edges, const FaceLoops& loops, const NarrowRequest& asked,
                  std::size_t row)
         : edges_(edges), asked_(asked), surface_(*asked.surfaces[row]), width_(asked.width[row]) {
         const auto face = static_cast<std::size_t>(asked.faces[row]);
@@ -238,7 +238,7 @@ class NarrowSearch {
         return longest;
     }
 
-    const SampledEdges& edges_;
+    const SampledCurves& edges_;
     const NarrowRequest& asked_;
     const Surface& surface_;
     double width_, around_ = 0.0, area_ = 0.0, diagonal_ = 0.0;
@@ -254,7 +254,7 @@ class NarrowSearch {
 
 }  // namespace
 
-std::vector<NarrowFace> narrow_faces(const SampledEdges& edges, const FaceLoops& loops,
+std::vector<NarrowFace> narrow_faces(const SampledCurves& edges, const FaceLoops& loops,
                                      const NarrowRequest& asked) {
     std::vector<NarrowFace> found(asked.faces.size());
     for_each_block(found.size(), FACES_AT_ONCE, [&](std::size_t from, std::size_t to) {

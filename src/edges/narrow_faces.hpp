@@ -52,7 +52,7 @@ struct NarrowRequest {
 inline constexpr double ROUND_A_TUBE = 1.1 * 3.141592653589793;
 
 /// One entry for each of the faces asked for.
-std::vector<NarrowFace> narrow_faces(const SampledEdges& edges, const FaceLoops& loops,
+std::vector<NarrowFace> narrow_faces(const SampledCurves& edges, const FaceLoops& loops,
                                      const NarrowRequest& asked);
 
 }  // namespace surfmesh

@@ -14,15 +14,15 @@ namespace surfmesh::binding {
 namespace {
 
 /// Refuse edges without samples, which have no curve.
-void require_samples(const SampledEdges& edges, std::span<const std::int64_t> which) {
+void require_samples(const SampledCurves& edges, std::span<const std::int64_t> which) {
     require_indices(which, edges.first.size() - 1, "edges");
     for (const std::int64_t edge : which)
         if (edges.count(edge) > 0 && !edges.curves.curves[static_cast<std::size_t>(edge)])
             throw nb::value_error("an edge with samples has no curve");
 }
 
-SampledEdges checked_samples(const CurvePieces& curves, const Points3& points, const Numbers& t,
-                             const Indices& first) {
+SampledCurves checked_samples(const CurvePieces& curves, const Points3& points, const Numbers& t,
+                              const Indices& first) {
     require_offsets(first, curves.size(), points.shape(0), "first");
     require_rows(t.shape(0), points.shape(0), "t");
     return {{rows<double>(t), rows<std::int64_t>(first)}, rows<Point3>(points), curves};
@@ -34,7 +34,7 @@ auto found_narrow_faces(const CurvePieces& curves, const Points3& points, const 
                         const Numbers& length, const Numbers& area, double diagonal,
                         const Indices& faces, const Numbers& width, const CurvePieces& pcurves,
                         const nb::list& surfaces) {
-    const SampledEdges edges = checked_samples(curves, points, t, first);
+    const SampledCurves edges = checked_samples(curves, points, t, first);
     require_samples(edges, rows<std::int64_t>(edge));
     require_offsets(first_of_face, area.shape(0), edge.shape(0), "first_of_face");
     require_offsets(first_of_loop, first_of_loop.shape(0) - 1, edge.shape(0), "first_of_loop");
@@ -71,7 +71,7 @@ MateRuns found_mate_runs(const CurvePieces& curves, const Points3& points, const
                          const Indices& first, const Indices& uses, const Flags& is_reversed,
                          const Indices& first_use, const Indices& own, const Indices& other,
                          const Numbers& width, std::size_t fewest) {
-    const SampledEdges edges = checked_samples(curves, points, t, first);
+    const SampledCurves edges = checked_samples(curves, points, t, first);
     require_samples(edges, rows<std::int64_t>(uses));
     require_rows(is_reversed.shape(0), uses.shape(0), "is_reversed");
     if (first_use.shape(0) == 0) throw nb::value_error("first_use is empty");
@@ -131,7 +131,7 @@ auto cuts(const MateRuns& runs, const CurvePieces& curves, const Points3& points
           const Matrix<std::int64_t, 2>& vertices, const Points3& corners, const Numbers& length,
           const Numbers& total_curvature, const Indices& fewest, const Numbers& chord,
           const Numbers& shortest, const Numbers& sizes, double diagonal, double most) {
-    const SampledEdges samples = checked_samples(curves, points, t, first);
+    const SampledCurves samples = checked_samples(curves, points, t, first);
     require_edges(runs, samples);
     require_samples(samples, {runs.edge.data(), runs.edge.size()});
     require_samples(samples, {runs.mate.data(), runs.mate.size()});
