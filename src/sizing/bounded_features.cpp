@@ -11,6 +11,9 @@ namespace surfmesh {
 namespace {
 
 constexpr double HIDDEN_RISE = 0.25;  // of ``chord``: what rises less within a cell is no feature
+constexpr double HIDDEN_TURN = 0.25;  // of ``angle``, likewise
+constexpr double NARROW = 0.2;        // of the least size seen: the width of a narrow cell
+constexpr double RADIANS = 3.141592653589793 / 180.0;
 constexpr std::size_t CELLS_TOGETHER = 512;  // cells of which bounds are taken at a time
 
 Array<ParameterBox> boxes_of(const Chart& chart, const SeenCells& cells, std::size_t first,
@@ -46,6 +49,17 @@ double width_along(Point3 low, Point3 high, Point3 n) {
     return range.most - range.least;
 }
 
+/// The largest E and G of the first fundamental form at the nodes of a cell.
+Point2 largest_squares(const SeenCells& cells, std::size_t cell) {
+    Point2 found{0.0, 0.0};
+    for (std::size_t node = 0; node < 9; ++node) {
+        const SizeTensor root = cells.root[9 * cell + node];
+        found.x = most(found.x, root.xx * root.xx + root.xy * root.xy);
+        found.y = most(found.y, root.xy * root.xy + root.yy * root.yy);
+    }
+    return found;
+}
+
 double smaller_number(double a, double b) {
     if (std::isnan(a)) return b;
     return std::isnan(b) || a <= b ? a : b;
@@ -69,13 +83,14 @@ bool BoundedFeatures::find(const SeenCells& cells, bool deep, std::span<std::uin
     if (status_ == SurfaceStatus::UNKNOWN) return true;
     if (status_ != SurfaceStatus::DONE) return false;
     Array<PrincipalCurvatures> curved(count);
-    for (std::size_t i = 0; i < count; ++i) curved[i] = {k[i], curved_alike_ ? k[i] : 0.0};
+    for (std::size_t i = 0; i < count; ++i) curved[i] = {k[i], angle_ ? k[i] : 0.0};
     if (!rules_.shorter({curved.data(), count}, {possible.data(), count})) return false;
     Array<std::int32_t> some;
     for (std::size_t i = 0; i < count; ++i) {
         if (!(possible[i] < 0.5 * cells.smallest_size[i])) continue;
         // beside a rim of infinite speed there is no bound at any depth: there the report looks
         if (beside_infinite_speed(cells.low[i], cells.high[i])) continue;
+        if (!deep && is_flat(cells, i, k[i])) continue;
         found[i] = 1;
         some.push_back(static_cast<std::int32_t>(i));
     }
@@ -106,16 +121,31 @@ void BoundedFeatures::bound_curvature(const SeenCells& cells, std::size_t first,
             form[j] =
                 std::abs(scale[j]) * largest_along(lower[row], upper[row], cells.normal[cell]);
         }
-        double e = 0.0, g = 0.0;
-        for (std::size_t node = 0; node < 9; ++node) {
-            const SizeTensor root = cells.root[9 * cell + node];
-            e = most(e, root.xx * root.xx + root.xy * root.xy);
-            g = most(g, root.xy * root.xy + root.yy * root.yy);
-        }
+        const auto [e, g] = largest_squares(cells, cell);
         const double l = form[0] / e, n = form[2] / g;
         const double bound = std::sqrt(l * l + 2.0 * (form[1] * form[1]) / (e * g) + n * n);
         k[i] = std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
     }
+}
+
+/// Is a cell narrow, and does the bound k of its curvature show that the surface rises and turns
+/// little within it?
+///
+/// With k the Frobenius norm of the second fundamental form in terms of the first, and w no less
+/// than the cell's width both ways, it leaves the tangent plane at the middle by no more than
+///
+///     (|L| du^2 + 2 |M| du dv + |N| dv^2) / 8  <=  k (E du^2 + G dv^2) / 8  <=  k w^2 / 4
+///
+/// and its normal turns by about k w / sqrt(2).
+bool BoundedFeatures::is_flat(const SeenCells& cells, std::size_t cell, double k) const {
+    const Point2 step = cells.high[cell] - cells.low[cell];
+    const auto [e, g] = largest_squares(cells, cell);
+    const double square = std::max(e * step.x * step.x, g * step.y * step.y);
+    const double size = NARROW * cells.smallest_size[cell];
+    if (!(square < size * size)) return false;
+    const double turn = HIDDEN_TURN * RADIANS;
+    if (angle_ && !(k * std::sqrt(0.5 * square) <= turn * *angle_)) return false;
+    return !chord_ || 0.25 * k * square <= HIDDEN_RISE * *chord_;
 }
 
 /// Of the cells found, those in which the surface may lie off its tangent plane by a fraction of

@@ -159,17 +159,15 @@ void bind_bounded_features(nb::module_& m) {
                                                 "bounded.")
         .def(
             "__init__",
-            [](BoundedFeatures* made, const SurfaceLaw& law, bool curved_alike,
+            [](BoundedFeatures* made, const SurfaceLaw& law, std::optional<double> angle,
                std::optional<double> chord) {
-                new (made)
-                    BoundedFeatures(law.surface(), law.chart(), law.rules(), curved_alike, chord);
+                new (made) BoundedFeatures(law.surface(), law.chart(), law.rules(), angle, chord);
             },
-            nb::arg("law"), nb::arg("curved_alike"), nb::arg("chord").none(),
+            nb::arg("law"), nb::arg("angle").none(), nb::arg("chord").none(),
             nb::keep_alive<1, 2>(),
-            "curved_alike: sizes are smallest where a surface is curved both ways alike; else "
-            "where "
-            "it is curved one way only.\nchord: what rises less than a fraction of it within a "
-            "deep cell is no feature.");
+            "angle (degrees), chord (model units): what is asked for. What rises or turns less "
+            "than "
+            "a fraction of these within a narrow or deep cell is no feature.");
 }
 
 }  // namespace

@@ -176,8 +176,7 @@ def longest_along(rates: Annotated[NDArray[numpy.float64], dict(shape=(None, 2),
 class BoundedFeatures(surfmesh._core.fields.HiddenFeatures):
     """Features between samples, where derivatives are bounded."""
 
-    def __init__(self, law: SurfaceLaw, curved_alike: bool, chord: float | None) -> None:
+    def __init__(self, law: SurfaceLaw, angle: float | None, chord: float | None) -> None:
         """
-        curved_alike: sizes are smallest where a surface is curved both ways alike; else where it is curved one way only.
-        chord: what rises less than a fraction of it within a deep cell is no feature.
+        angle (degrees), chord (model units): what is asked for. What rises or turns less than a fraction of these within a narrow or deep cell is no feature.
         """

@@ -168,10 +168,7 @@ class FieldBuilder:
         if not isinstance(law, SizeLaw):  # nothing hides in what is given: see looks_for_hidden
             return law, _nothing_hides
         in_core = law.in_core()
-        # where both curvatures are alike ``angle`` allows least, where one is zero ``chord``
-        hidden = core_sizing.BoundedFeatures(
-            in_core, law.sizing.angle is not None, law.sizing.chord
-        )
+        hidden = core_sizing.BoundedFeatures(in_core, law.sizing.angle, law.sizing.chord)
         return in_core, hidden
 
     def _blunt_poles(self) -> None:

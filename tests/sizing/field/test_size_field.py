@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import surfmesh as sm
 from surfmesh.api import load
 from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
@@ -185,3 +186,17 @@ def test_speeds_that_change_hide_no_curvature():
     plane = ParametricSurface(x, "v", x, u=(0, 1), v=(0, 1), name="incline")
     field = size_field(plane, Sizing(chord=0.03, max_size=0.2), find_sides(plane))
     assert len(field.background.child) < 20_000
+
+
+@pytest.mark.parametrize("sizing", [{}, {"angle": 20.0}, {"chord": 0.01}])
+def test_a_regular_surface_is_not_taken_for_a_singular_one(sizing):
+    """The terms of its derivatives cancel at the sides of the domain, so that their bounds are
+    wide over cells that are tiny in space: it was refused as perhaps singular there."""
+    scale = "1 + u**2 + v**2"
+    sphere = sm.ParametricSurface(
+        f"2*u/({scale})", f"2*v/({scale})", f"(u**2 + v**2 - 1)/({scale})",
+        u=(-10, 10), v=(-10, 10), name="stereographic sphere",
+    )  # fmt: skip
+    report = sm.check(sm.mesh(sphere, sm.Sizing(**sizing)))
+    assert report.clean
+    assert report.triangles < 3000
