@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at together
 constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
+constexpr double ROUNDING = 1e-12;  // relative: sizes that are told apart by less are the same
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
 constexpr std::size_t EDGES_A_BLOCK = 256, FACES_A_BLOCK = 64;
@@ -306,16 +307,15 @@ class GradationOverFaces {
     std::vector<std::size_t> first_block_;  // of the edges, and how many there are
 };
 
-/// The edges of which a size is smaller than before; all where none are known.
+/// The edges of which a size is smaller than before, by more than rounding; all where none are
+/// known.
 Array<std::uint8_t> lowered_edges(const EdgeNetwork& edges, const Array<double>& sizes,
                                   std::span<const double> before) {
-    Array<std::uint8_t> found(edges.ends.size(), 1);
-    for (std::size_t e = 0; !before.empty() && e < edges.ends.size(); ++e) {
-        const auto first = static_cast<std::size_t>(edges.first[e]);
-        const auto count = static_cast<std::size_t>(edges.first[e + 1]) - first;
-        found.data()[e] =
-            !std::equal(sizes.data() + first, sizes.data() + first + count, before.data() + first);
-    }
+    Array<std::uint8_t> found(edges.ends.size(), before.empty());
+    for (std::size_t e = 0; !before.empty() && e < edges.ends.size(); ++e)
+        for (std::int64_t i = edges.first[e]; i < edges.first[e + 1]; ++i)
+            if (sizes.data()[i] < (1.0 - ROUNDING) * before[static_cast<std::size_t>(i)])
+                found.data()[e] = 1;
     return found;
 }
 
