@@ -11,9 +11,9 @@ a thin wall's other side is not taken for the triangle's own."""
 NEAR = 16
 
 
-def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh, chord: float) -> int:
+def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh, reach: float = 0.0) -> int:
     """How many triangles of the mesh look against all true ones near them: the nearest ones, and
-    those within the chord. Walls may be thinner than that."""
+    those within reach, as far as walls may be thinner than the chord."""
     centres, own = mesh.triangles_center, _unit(mesh.triangles_cross)
     true, middles = _unit(truth.triangles_cross), truth.triangles_center
     cell, _ = pyvista.wrap(truth).find_closest_cell(centres, return_closest_point=True)
@@ -22,7 +22,7 @@ def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh, chord: flo
     cosines = np.einsum("ij,ikj->ik", own[doubtful], true[found])
     against = doubtful[cosines.max(axis=1) < AGAINST[1]]
     return sum(
-        _distance(centres[k], truth, true @ own[k] >= AGAINST[1]) > chord for k in against.tolist()
+        _distance(centres[k], truth, true @ own[k] >= AGAINST[1]) > reach for k in against.tolist()
     )
 
 

@@ -140,7 +140,7 @@ def judged(points: np.ndarray, triangles: np.ndarray, truth: Truth, chord: float
         faults.append(f"{lying} triangles lie folded on a neighbour")
     near = FINE * (chord if chord is not None else 0.01 * float(mesh.scale))
     exact, uv, off = truth.tessellated(near)
-    against = reversed_triangles(mesh, exact, chord or 0.0) if truth.oriented else 0
+    against = reversed_triangles(mesh, exact) if truth.oriented else 0
     if against:
         faults.append(f"{against} triangles look the wrong way")
     if chord is not None:
