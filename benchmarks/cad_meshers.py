@@ -44,14 +44,14 @@ def _ours(request: dict) -> dict:
     from cad_measures import clocks, spent
 
     import surfmesh as sm
-    from surfmesh.sizing.options.model_sizing import with_defaults
+    from surfmesh.sizing.options.defaults import with_defaults
 
     place = request["place"]
     shape = part_of(place) if is_part(place) else None
     start = perf_counter()
     model = sm.load(place) if shape is None else sm.from_cadquery(shape)
     read = perf_counter() - start
-    sizing = with_defaults(sm.Sizing(), model)
+    sizing = with_defaults(sm.Sizing(), model.diagonal)
     known = {
         "faces": len(model.faces),
         "edges": len(model.edges),
