@@ -135,6 +135,17 @@ ClosestPoints searched(SurfaceReader& surface, std::span<const Point3> points,
     return found;
 }
 
+/// Of some points the places that another search has found, where these are nearer.
+void take_nearer(const ClosestPoints& other, const Array<std::int32_t>& some,
+                 ClosestPoints& found) {
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        if (!(other.distance[k] < found.distance[some[k]])) continue;
+        found.uv[some[k]] = other.uv[k];
+        found.distance[some[k]] = other.distance[k];
+        found.foot[some[k]] = other.foot[k];
+    }
+}
+
 /// Is a place at a side of the box that no search leaves, or beyond it?
 bool is_at_wall(Point2 p, const ParameterBox& box) {
     return !(p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y);
@@ -158,11 +169,7 @@ void search_across_sides(SurfaceReader& surface, std::span<const Point3> points,
     if (far.empty()) return;
     const ClosestPoints other = closest_points_across_sides(surface, {places.data(), places.size()},
                                                             {from.data(), from.size()}, steps);
-    for (std::size_t k = 0; k < far.size(); ++k) {
-        if (!(other.distance[k] < found.distance[far[k]])) continue;
-        found.uv[far[k]] = other.uv[k];
-        found.distance[far[k]] = other.distance[k];
-    }
+    take_nearer(other, far, found);
 }
 
 }  // namespace
@@ -199,11 +206,7 @@ ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<cons
         }
         const ClosestPoints other = closest_points(surface, {places.data(), places.size()},
                                                    {anew.data(), anew.size()}, steps);
-        for (std::size_t k = 0; k < far.size(); ++k) {
-            if (!(other.distance[k] < found.distance[far[k]])) continue;
-            found.uv[far[k]] = other.uv[k];
-            found.distance[far[k]] = other.distance[k];
-        }
+        take_nearer(other, far, found);
     }
     search_across_sides(surface, points, guesses, limit, steps, found);
     return found;
