@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edges/metric_lengths.hpp"
 #include "edges/rim_sags.hpp"
 #include "values/interpolation.hpp"
 
@@ -30,25 +31,16 @@ class Cutting {
     }
 
   private:
-    std::span<const double> of(std::span<const double> values, std::int64_t edge) const {
+    template <class T>
+    std::span<const T> of(std::span<const T> values, std::int64_t edge) const {
         const auto start = static_cast<std::size_t>(edges_.first[edge]);
         return values.subspan(start, static_cast<std::size_t>(edges_.first[edge + 1]) - start);
-    }
-
-    /// Metric length from the start of an edge to each of its samples.
-    void measure(std::int64_t edge) {
-        metric_.clear();
-        metric_.push_back(0.0);
-        for (std::int64_t i = edges_.first[edge]; i + 1 < edges_.first[edge + 1]; ++i) {
-            const double step = norm(edges_.points[i + 1] - edges_.points[i]);
-            metric_.push_back(metric_.back() + 2.0 * step / (sizes_[i + 1] + sizes_[i]));
-        }
     }
 
     /// Add the nodes of one row; false where there are too many pieces.
     bool cut(std::size_t k) {
         const std::int64_t edge = asked_.which[k];
-        measure(edge);
+        metric_lengths(of(edges_.points, edge), of(sizes_, edge), metric_);
         const std::int64_t given = asked_.first_given[k + 1] - asked_.first_given[k];
         const double pieces = given > 0 ? static_cast<double>(given - 1)
                                         : std::max(static_cast<double>(asked_.fewest[k]),

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "edges/metric_lengths.hpp"
 #include "edges/rim_sags.hpp"
 #include "values/interpolation.hpp"
 
@@ -207,20 +208,10 @@ class Mating {
         t.resize(static_cast<std::size_t>(std::unique(t.begin(), t.end()) - t.begin()));
     }
 
-    /// Metric length from the start of an edge to each of its samples.
-    void measure(std::int64_t edge) {
-        const auto points = samples_.of(samples_.points, edge);
-        const auto size = samples_.of(sizes_, edge);
-        metric_.clear();
-        metric_.push_back(0.0);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i)
-            metric_.push_back(metric_.back() +
-                              2.0 * norm(points[i + 1] - points[i]) / (size[i + 1] + size[i]));
-    }
-
     /// More nodes between those that there are, in pieces of metric length near 1.
     void subdivide(CutEdge& cut) {
-        measure(cut.edge);
+        metric_lengths(samples_.of(samples_.points, cut.edge), samples_.of(sizes_, cut.edge),
+                       metric_);
         const std::span<const double> metric(metric_.data(), metric_.size());
         const auto t = samples_.of(samples_.t, cut.edge);
         const Interpolation metric_at(t, metric), t_at(metric, t);

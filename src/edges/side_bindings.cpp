@@ -208,6 +208,7 @@ void bind_mates(nb::module_& m) {
 }  // namespace
 
 void bind_sides(nb::module_& m) {
+    m.attr("ROUND_A_TUBE") = ROUND_A_TUBE;
     bind_narrow_faces(m);
     bind_mates(m);
 }

@@ -13,8 +13,6 @@ be flooded with them. It has no inside to be meshed: see ``strip_triangulation``
 
 from __future__ import annotations
 
-from math import pi
-
 import numpy as np
 
 from surfmesh._core import edges
@@ -33,7 +31,7 @@ OF_SIZE = 0.25
 OF_SIZE_ALONE = 0.1
 """Where nothing but a size is asked for, faces are narrow up to this fraction of it."""
 
-ROUND = 1.1 * pi
+ROUND = edges.ROUND_A_TUBE
 """Ends, and ways across, are at most so many narrow widths long: round a tube."""
 
 SURELY = 1.0 + 1e-9
