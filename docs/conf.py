@@ -19,6 +19,7 @@ html_title = "surfmesh"
 html_show_copyright = False
 
 myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 3
 nb_execution_mode = "force"
 nb_execution_timeout = 300  # seconds a cell, when kernels have to be compiled first
 nb_execution_in_temp = True
