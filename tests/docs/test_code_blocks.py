@@ -91,6 +91,8 @@ def test_what_a_page_points_at_is_there(page):
         assert any(f"/{path}".endswith(f"/{module}") for path in FILES), f"{page.name}: {module}"
     for folder in re.findall(r"`([a-z0-9_./]+)/`", text):
         assert any((ROOT / top / folder).is_dir() for top in ("", "surfmesh")), folder
+    for path in re.findall(r"`(src/[a-z0-9_/]+?)(?:\.[hc]pp|/)?`", text):
+        assert (ROOT / path).is_dir() or list(ROOT.glob(f"{path}.[hc]pp")), f"{page.name}: {path}"
 
 
 def test_every_public_name_is_in_the_reference():
