@@ -20,7 +20,7 @@ Array<Point3> points_on(const CurvePieces& pieces, const PiecePlaces& places) {
         for (std::size_t i = from; i < to; ++i) {
             parameters_of(pieces, places, i, t);
             pieces.curves[static_cast<std::size_t>(places.which[i])]->evaluate(
-                {t.data(), t.size()}, 0, {found.data() + places.start(i), t.size()});
+                t, 0, {found.data() + places.start(i), t.size()});
         }
     });
     return found;

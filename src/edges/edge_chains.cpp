@@ -114,7 +114,7 @@ void feet_on_edge(const CurvePieces& curves, std::int64_t edge, std::span<const 
     Array<Point3> here(2 * count), there(2 * count);
     const auto evaluate = [&](std::span<const double> fraction, Array<Point3>& out) {
         for (std::size_t i = 0; i < count; ++i) parameter.data()[i] = t0 + fraction[i] * range;
-        curve.evaluate({parameter.data(), count}, 1, {out.data(), out.size()});
+        curve.evaluate({parameter.data(), count}, 1, out);
     };
     for (double& guess : t) guess = std::clamp(guess, 0.0, 1.0);
     evaluate(t, here);

@@ -110,12 +110,11 @@ SurfaceCurvatures curvatures_along(const CurvePieces& coedges, const PiecePlaces
             parameters_of(coedges, places, i, t);
             on_plane.resize(t.size());
             coedges.curves[static_cast<std::size_t>(places.which[i])]->evaluate(
-                {t.data(), t.size()}, 0, {on_plane.data(), t.size()});
+                t, 0, {on_plane.data(), t.size()});
             uv.clear();
             for (std::size_t k = 0; k < t.size(); ++k)
                 uv.push_back({on_plane.data()[k].x, on_plane.data()[k].y});
-            refused.data()[i] = !set_curvatures(*surfaces[i], {uv.data(), uv.size()},
-                                                places.start(i), values, found);
+            refused.data()[i] = !set_curvatures(*surfaces[i], uv, places.start(i), values, found);
         }
     });
     const auto* first = std::find(refused.begin(), refused.end(), 1);

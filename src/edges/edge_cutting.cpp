@@ -117,7 +117,7 @@ class Cutting {
 
     /// Add the nodes of so many pieces of equal metric length.
     void divide(std::int64_t edge, std::size_t pieces) {
-        const Interpolation parameter({metric_.data(), metric_.size()}, of(fraction_, edge));
+        const Interpolation parameter(metric_, of(fraction_, edge));
         const double length = metric_.back();
         for (std::size_t i = 0; i <= pieces; ++i) {
             const double t = static_cast<double>(i) / static_cast<double>(pieces);
@@ -142,9 +142,7 @@ CutEdges cut_to_metric_length(const CurvePieces& curves, const EdgeNetwork& edge
                               std::span<const Point3> corners, const CutRequests& asked) {
     CutEdges found = Cutting(curves, edges, fraction, sizes, asked).nodes();
     if (found.refused >= 0) return found;
-    found.points = points_on(
-        curves,
-        {asked.which, {found.first.data(), found.first.size()}, {found.t.data(), found.t.size()}});
+    found.points = points_on(curves, {asked.which, found.first, found.t});
     for (std::size_t k = 0; k < asked.which.size(); ++k) {
         const SegmentEnds ends = edges.ends[asked.which[k]];
         found.points[found.first[k]] = corners[ends.start];

@@ -110,7 +110,7 @@ class GradationOverFaces {
         });
         for (int round = 1; cross_faces(round); ++round) {
             const Array<double> before = sizes_;
-            sizes_ = along_.graded({before.data(), before.size()});
+            sizes_ = along_.graded(before);
             for (std::size_t e = 0; e < count; ++e)
                 if (!std::equal(&before.data()[edges_.first[e]],
                                 &before.data()[edges_.first[e + 1]],
@@ -328,20 +328,17 @@ Array<double> graded_over_faces(const EdgeNetwork& edges, const EdgesOfFaces& fa
     Array<double> asked(sizes);
     for (std::size_t i = 0; i < before.size(); ++i)
         asked.data()[i] = std::min(asked.data()[i], before[i]);
-    Array<double> found = along.graded({asked.data(), asked.size()});
+    Array<double> found = along.graded(asked);
     const Array<std::uint8_t> is_lower = lowered_edges(edges, found, before);
     if (std::none_of(is_lower.begin(), is_lower.end(), [](std::uint8_t lower) { return lower; }))
         return found;
     const ThinnedEdges thinned(edges, found);
-    const EdgeNetwork few{{thinned.points.data(), thinned.points.size()},
-                          {thinned.first.data(), thinned.first.size()},
-                          edges.ends,
-                          edges.vertices};
-    const Array<double> graded = GradationOverFaces(few, faces, slope, least_step)
-                                     .sizes({thinned.sizes.data(), thinned.sizes.size()}, is_lower);
+    const EdgeNetwork few{thinned.points, thinned.first, edges.ends, edges.vertices};
+    const Array<double> graded =
+        GradationOverFaces(few, faces, slope, least_step).sizes(thinned.sizes, is_lower);
     if (std::equal(graded.begin(), graded.end(), thinned.sizes.begin())) return found;
-    thinned.lower({graded.data(), graded.size()}, found);
-    return along.graded({found.data(), found.size()});
+    thinned.lower(graded, found);
+    return along.graded(found);
 }
 
 }  // namespace surfmesh

@@ -142,8 +142,7 @@ class Mating {
         parameters_.clear();
         for (const double t : nodes_) parameters_.push_back(t0 + t * range);
         points_.resize(nodes_.size());
-        curves.curves[static_cast<std::size_t>(edge)]->evaluate(
-            {parameters_.data(), parameters_.size()}, 0, {points_.data(), points_.size()});
+        curves.curves[static_cast<std::size_t>(edge)]->evaluate(parameters_, 0, points_);
         const SegmentEnds ends = edges_.vertices[edge];
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             if (nodes_.data()[i] == 0.0) points_.data()[i] = edges_.corners[ends.start];
@@ -165,10 +164,9 @@ class Mating {
         for (const double node : nodes_) foot_.push_back(foot_at(node));
         away_.resize(nodes_.size());
         CutEdge& mate = own(runs_.mate.data()[run]);
-        feet_on_edge(samples_.curves, mate.edge, {points_.data(), points_.size()},
-                     {foot_.data(), foot_.size()}, {away_.data(), away_.size()});
+        feet_on_edge(samples_.curves, mate.edge, points_, foot_, away_);
         const auto t = samples_.of(samples_.t, mate.edge);
-        const Interpolation along(t, {mate.length.data(), mate.length.size()});
+        const Interpolation along(t, mate.length);
         added_.clear();
         const std::size_t before = mate.t.size();
         for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -35,7 +35,7 @@ class NarrowSearch {
             uses_.push_back({edge, loops.is_reversed[c] != 0});
             length_.push_back(edges.count(edge) > 0 ? loops.length[edge] : 0.0);
         }
-        around_ = pairwise_sum({length_.data(), length_.size()});
+        around_ = pairwise_sum(length_);
         const auto first = std::lower_bound(loops.first_of_loop.begin(), loops.first_of_loop.end(),
                                             loops.first_of_face[face]);
         const auto last =
@@ -224,7 +224,7 @@ class NarrowSearch {
             }
         }
         SurfaceValues values;
-        if (values.evaluate(surface_, {uv_.data(), uv_.size()}, 0) != SurfaceStatus::DONE)
+        if (values.evaluate(surface_, uv_, 0) != SurfaceStatus::DONE)
             return std::numeric_limits<double>::infinity();
         const std::span<const Point3> points = values[0];
         double longest = 0.0;

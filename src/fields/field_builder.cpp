@@ -43,16 +43,6 @@ constexpr std::size_t MANY_CELLS = 100'000;  // made before the triangles are co
 constexpr FieldOutcome DONE_WELL{FieldStatus::done, {0.0, 0.0}, 0.0};
 constexpr FieldOutcome FAILED{FieldStatus::failed, {0.0, 0.0}, 0.0};
 
-template <class T>
-std::span<T> all(Array<T>& array) {
-    return {array.data(), array.size()};
-}
-
-template <class T>
-std::span<const T> all(const Array<T>& array) {
-    return {array.data(), array.size()};
-}
-
 /// The error of the leaves of a cell, told from its own and its parent's.
 double error_of_leaves(double own, double parents) {
     const double part = parents > 0.0 ? own / parents : KINK_PART;
@@ -90,10 +80,10 @@ FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
             return found;
         const auto leaves = cells_.leaves();
         Marks marks{Array<std::uint8_t>(leaves.size(), 0), deep_};
-        mark_inaccurate(seen, all(marks.split));
+        mark_inaccurate(seen, marks.split);
         if (!mark_hidden(hidden, marks)) return FAILED;
         Array<std::uint8_t> demanded(leaves.size(), 0);
-        cells_.mark_for_sources(all(plan_.sources), all(demanded));
+        cells_.mark_for_sources(plan_.sources, demanded);
         std::size_t count = 0;
         bool is_demanded = false;
         for (std::size_t k = 0; k < leaves.size(); ++k) {
@@ -107,11 +97,11 @@ FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
         // after so many rounds all features are found; a few cells creep along fronts
         const std::size_t few = round <= DEPTH ? 0 : leaves.size() / 1000;
         if (count <= few && !is_demanded) break;
-        cells_.balance(all(marks.split));
+        cells_.balance(marks.split);
         const std::size_t kept = replace(marks);
         if (static_cast<double>(cells_.total()) > plan_.free_cells &&
             static_cast<double>(cells_.total()) > most_cells())
-            return refused(all(marks.split));
+            return refused(marks.split);
         if (!make_patches(kept, law)) return FAILED;
     }
     finished_ = true;
@@ -146,7 +136,7 @@ std::size_t FieldBuilder::replace(const Marks& marks) {
     deep_ = std::move(deep);
     error_ = std::move(error);
     leaves_before_ = Array<FieldCell>(cells_.leaves());
-    cells_.split(all(marks.split));
+    cells_.split(marks.split);
     fresh_ = Array<std::uint8_t>(kept, 0);
     fresh_.resize(cells_.leaves().size(), 1);
     return kept;
@@ -158,22 +148,21 @@ FieldOutcome FieldBuilder::grade_nodes() {
     changed_.resize(nodes.count(), number_);
     for (std::size_t n = round_.size(); n < nodes.asked.size(); ++n)
         round_.push_back(nodes.is_round(static_cast<std::ptrdiff_t>(n)) ? 1 : 0);
-    return spread(all(nodes.size), nodes.is_anisotropic());
+    return spread(nodes.size, nodes.is_anisotropic());
 }
 
 FieldOutcome FieldBuilder::spread(std::span<double> size) { return spread(size, false); }
 
 FieldOutcome FieldBuilder::spread(std::span<double> size, bool stretched) {
-    GradedSizes graded{size, {}, {}, {}, {}, all(nodes.point), all(changed_), plan_.slope};
+    GradedSizes graded{size, {}, {}, {}, {}, nodes.point, changed_, plan_.slope};
     if (stretched) {
-        graded.longer = all(nodes.longer);
-        graded.along = all(nodes.along);
-        graded.normal = all(nodes.normal);
-        graded.round = all(round_);
+        graded.longer = nodes.longer;
+        graded.along = nodes.along;
+        graded.normal = nodes.normal;
+        graded.round = round_;
     }
     const std::int32_t number = number_++;
-    const GradationDone done =
-        grade(all(patches_), all(joined_), graded, number, MOST_VISITS - visits_);
+    const GradationDone done = grade(patches_, joined_, graded, number, MOST_VISITS - visits_);
     visits_ += done.visits;
     if (done.finished) return DONE_WELL;
     const std::int64_t key = done.last == NIL ? 0 : key_[done.last];
@@ -230,10 +219,10 @@ bool FieldBuilder::mark_hidden(HiddenFeatures& hidden, Marks& marks) {
         if (fresh_[k] != 0 && marks.split[k] == 0)
             (leaves[k].depth < HIDDEN_DEPTH ? shallow : deep)
                 .push_back(static_cast<std::int32_t>(k));
-    if (!ask_hidden(hidden, all(shallow), false, all(marks.split))) return false;
+    if (!ask_hidden(hidden, shallow, false, marks.split)) return false;
     if (deep.empty() || !plan_.looks_deep || looked_into_ >= MOST_HIDDEN) return true;
     looked_into_ += static_cast<std::int64_t>(deep.size());
-    if (!ask_hidden(hidden, all(deep), true, all(marks.split))) return false;
+    if (!ask_hidden(hidden, deep, true, marks.split)) return false;
     for (const std::int32_t k : deep)
         if (marks.split[k] != 0) marks.deep[k] = 1;
     return true;
@@ -257,7 +246,7 @@ bool FieldBuilder::ask_hidden(HiddenFeatures& hidden, std::span<const std::int32
         seen.smallest_size.push_back(smallest);
     }
     Array<std::uint8_t> found(cells.size(), 0);
-    if (!hidden.find(seen, deep, all(found))) return false;
+    if (!hidden.find(seen, deep, found)) return false;
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (found[i] != 0) split[cells[i]] = 1;
     return true;

@@ -72,7 +72,7 @@ bool FieldBuilder::make_patches(std::size_t first, NodeLaw& law) {
         number_in_turn_[one.turn] = static_cast<Node>(key_.size() + keys.size());
         keys.push_back(one.key);
     }
-    if (!create({keys.data(), keys.size()}, law)) return false;
+    if (!create(keys, law)) return false;
     for (std::size_t k = first; k < leaves.size(); ++k)
         for (Node& node : patches_[k].node)
             if (node < 0) node = number_in_turn_[waiting_for(node)];

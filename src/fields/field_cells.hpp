@@ -37,9 +37,7 @@ class FieldCells {
   public:
     explicit FieldCells(RootGrid grid);
 
-    [[nodiscard]] std::span<const FieldCell> leaves() const {
-        return {leaves_.data(), leaves_.size()};
-    }
+    [[nodiscard]] std::span<const FieldCell> leaves() const { return leaves_; }
     /// Cells of the tree, those that were split included.
     [[nodiscard]] std::int64_t total() const { return static_cast<std::int64_t>(child_.size()); }
     /// Of the cells of the tree: first of four children, or NIL.

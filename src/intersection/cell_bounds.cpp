@@ -46,7 +46,7 @@ Array<SecondDerivatives> sampled_bends(SurfaceReader& surface,
                 const double t = static_cast<double>(j) / (GRID - 1);
                 uv.push_back({low.x + s * (high.x - low.x), low.y + t * (high.y - low.y)});
             }
-    surface.read({uv.data(), uv.size()}, 2);
+    surface.read(uv, 2);
     Array<SecondDerivatives> found;
     constexpr std::size_t EACH = GRID * GRID;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -64,8 +64,7 @@ Array<SecondDerivatives> sampled_bends(SurfaceReader& surface,
 Array<SecondDerivatives> bends_of(SurfaceReader& surface, std::span<const ParameterBox> cells) {
     constexpr std::size_t EACH = derivative_count(2);
     Array<Point3> magnitudes(EACH * cells.size());
-    if (!surface.read_magnitudes(cells, 2, {magnitudes.data(), magnitudes.size()}))
-        return sampled_bends(surface, cells);
+    if (!surface.read_magnitudes(cells, 2, magnitudes)) return sampled_bends(surface, cells);
     Array<SecondDerivatives> found;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         const Point3* own = magnitudes.data() + cell * EACH;
@@ -120,7 +119,7 @@ CellBounds bound_cells(SurfaceReader& surface, std::span<const ParameterBox> cel
             corners.push_back(corner);
         middles.push_back(0.5 * (low + high));
     }
-    surface.read({corners.data(), corners.size()}, 0);
+    surface.read(corners, 0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const SecondDerivatives& bent = bends[static_cast<std::ptrdiff_t>(i)];
         const Point2 width = cells[i].high - cells[i].low;
@@ -128,7 +127,7 @@ CellBounds bound_cells(SurfaceReader& surface, std::span<const ParameterBox> cel
             (1.0 / 8.0) * (width.x * width.x * bent.uu + width.y * width.y * bent.vv);
         add_box(found, surface[0].subspan(CORNERS * i, CORNERS), sag);
     }
-    surface.read({middles.data(), middles.size()}, 1);
+    surface.read(middles, 1);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Cone cone = cone_of(surface[1][i], surface[2][i], cells[i].high - cells[i].low,
                                   bends[static_cast<std::ptrdiff_t>(i)]);
@@ -147,8 +146,7 @@ Array<Point3> curve_bends(const CurvePiece& piece, std::span<const ParameterRang
     for (const auto& [first, last] : ranges)
         own.push_back({piece.first + first * rate, piece.first + last * rate});
     Array<Point3> magnitudes(3 * ranges.size()), found;
-    if (piece.curve.derivative_magnitudes({own.data(), own.size()}, 2,
-                                          {magnitudes.data(), magnitudes.size()})) {
+    if (piece.curve.derivative_magnitudes(own, 2, magnitudes)) {
         for (std::size_t i = 0; i < ranges.size(); ++i)
             found.push_back(rate * rate * magnitudes[static_cast<std::ptrdiff_t>(3 * i + 2)]);
         return found;
@@ -157,7 +155,7 @@ Array<Point3> curve_bends(const CurvePiece& piece, std::span<const ParameterRang
     for (const auto& [first, last] : own)
         for (std::size_t k = 0; k < CURVE_GRID; ++k)
             t.push_back(first + static_cast<double>(k) / (CURVE_GRID - 1) * (last - first));
-    const CurveValues c(piece.curve, {t.data(), t.size()}, 2);
+    const CurveValues c(piece.curve, t, 2);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         double bound = 0.0;
         for (std::size_t k = i * CURVE_GRID; k < (i + 1) * CURVE_GRID; ++k)
@@ -180,8 +178,8 @@ CellBounds bound_pieces(const CurvePiece& piece, std::span<const ParameterRange>
         ends.push_back(piece.first + last * rate);
         middles.push_back(piece.first + 0.5 * (first + last) * rate);
     }
-    const CurveValues corner(piece.curve, {ends.data(), ends.size()}, 0);
-    const CurveValues middle(piece.curve, {middles.data(), middles.size()}, 1);
+    const CurveValues corner(piece.curve, ends, 0);
+    const CurveValues middle(piece.curve, middles, 1);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const Point3 bent = bends[static_cast<std::ptrdiff_t>(i)];
         const double width = ranges[i].last - ranges[i].first;

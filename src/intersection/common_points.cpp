@@ -125,8 +125,7 @@ CommonPoints pull_onto_both(MeetingSurfaces& surfaces, std::span<const Point2> u
     }
     for (int round = 0; round < steps && !moving.points.empty(); ++round) {
         moving.gather(found);
-        read(surfaces, {moving.uv_a.data(), moving.uv_a.size()},
-             {moving.uv_b.data(), moving.uv_b.size()}, 1);
+        read(surfaces, moving.uv_a, moving.uv_b, 1);
         if (surfaces.failed()) return found;
         std::size_t kept = 0;
         for (std::size_t row = 0; row < moving.points.size(); ++row) {

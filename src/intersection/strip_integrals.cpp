@@ -31,7 +31,7 @@ class StripPieces {
                 for (const double place : rule_.places)
                     uv_.push_back({piece.first + piece.width * place, ends_[piece.strip].y});
             }
-            surface_.read({uv_.data(), uv_.size()}, 1);
+            surface_.read(uv_, 1);
             for (std::size_t k = 0; k < count; ++k)
                 sum_up(pieces[static_cast<std::ptrdiff_t>(start + k)], k * each);
         }

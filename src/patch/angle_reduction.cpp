@@ -46,8 +46,7 @@ void lower_sizes_at(PatchState& state, const Dihedrals& found, double limit, dou
         vertices.push_back(v);
         factors.push_back(factor[v]);
     }
-    lower_sizes(state.frames, state.marks, {vertices.data(), vertices.size()},
-                {factors.data(), factors.size()}, smallest);
+    lower_sizes(state.frames, state.marks, vertices, factors, smallest);
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ void reduce_dihedrals(PatchState& state) {
             return;
         if (round >= smoothed) {  // as they are smoothed others get too large an angle
             const Array<Triangle> triangles = triangles_of(found);
-            state.split_farthest({triangles.data(), triangles.size()});
+            state.split_farthest(triangles);
             continue;
         }
         lower_sizes_at(state, found, angle_limit(angle, ANGLE_MARGIN),

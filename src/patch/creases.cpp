@@ -55,7 +55,7 @@ Array<std::uint8_t> on_crease(SurfaceReader& surface, std::span<const CornersBes
         for (const Point2 p : moved_inside(turned.back().first)) uv.push_back(p);
         for (const Point2 p : moved_inside(turned.back().second)) uv.push_back(p);
     }
-    surface.read({uv.data(), uv.size()}, 2);
+    surface.read(uv, 2);
     Array<std::uint8_t> bent(edges.size(), 0);
     for (std::size_t k = 0; k < edges.size(); ++k) {
         std::array<NormalAt, 6> at;

@@ -53,11 +53,6 @@ Array<T> chosen(std::span<const T> values, const Array<std::int32_t>& which) {
     return some;
 }
 
-template <class T>
-std::span<const T> all(const Array<T>& values) {
-    return {values.data(), values.size()};
-}
-
 /// uv of some points, moved by the steps of their offsets and kept within the domain.
 Array<Point2> a_step_further(const ParameterBox& box, std::span<const Point2> uv,
                              const Array<TangentPlaneOffset>& found,
@@ -78,7 +73,7 @@ Array<std::int32_t> look_again(SurfaceReader& surface, std::span<const Point3> p
                                const Array<TangentPlaneOffset>& found,
                                const Array<std::int32_t>& far, Array<double>& distance) {
     const Array<Point2> nearer = a_step_further(surface.domain(), uv, found, far);
-    const Array<TangentPlaneOffset> again = offsets(surface, all(chosen(points, far)), all(nearer));
+    const Array<TangentPlaneOffset> again = offsets(surface, chosen(points, far), nearer);
     Array<std::int32_t> left;
     for (std::size_t k = 0; k < far.size(); ++k) {
         const std::int32_t i = far[k];
@@ -115,7 +110,7 @@ void measure_at(SurfaceReader& surface, const Chart& chart, const TriangleBlock&
     const std::size_t count = triangles.size();
     Array<Point2> xy(count);
     for (std::size_t k = 0; k < count; ++k) xy[k] = at_weights(block.xy[triangles[k]], w);
-    surface.read(all(chart.to_uv(all(xy))), 1);
+    surface.read(chart.to_uv(xy), 1);
     for (std::size_t k = 0; k < count; ++k)
         offsets[k] = squared_offset(at_weights(block.corners[triangles[k]], w), surface[0][k],
                                     surface[1][k], surface[2][k]);
@@ -185,9 +180,8 @@ void search(SurfaceReader& surface, const Chart& chart, const TriangleBlock& blo
     for (const std::int32_t i : close)
         corners.push_back({chart.to_uv(block.xy[i][0]), chart.to_uv(block.xy[i][1]),
                            chart.to_uv(block.xy[i][2])});
-    const ClosestPoints found =
-        closest_points_in_triangles(surface, all(left.points), all(left.uv), all(corners),
-                                    all(left.triangle), CHORD_MARGIN * limit, FEW_STEPS);
+    const ClosestPoints found = closest_points_in_triangles(
+        surface, left.points, left.uv, corners, left.triangle, CHORD_MARGIN * limit, FEW_STEPS);
     for (std::size_t k = 0; k < left.points.size(); ++k) {
         double& error = block.error[close[left.triangle[k]]];
         error = std::max(error, found.distance[k]);
@@ -219,7 +213,7 @@ void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBloc
             judge(k, few.offsets[n * block.corners.size() + close[k]], FEW_SAMPLES[n]);
     Array<SquaredOffset> offsets(close.size());
     for (const BarycentricWeights& w : OTHER_SAMPLES) {
-        measure_at(surface, chart, block, close, w, {offsets.data(), offsets.size()});
+        measure_at(surface, chart, block, close, w, offsets);
         for (std::size_t k = 0; k < close.size(); ++k) judge(k, offsets[k], w);
     }
     for (std::size_t k = 0; k < close.size(); ++k) block.error[close[k]] = std::sqrt(largest[k]);
@@ -240,7 +234,7 @@ Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
             for (const BarycentricWeights& w : FEW_SAMPLES) {
                 for (std::size_t i = 0; i < count; ++i)
                     uv[i] = chart.to_uv(at_weights(xy[first + i], w));
-                reader.read(all(uv), 1);
+                reader.read(uv, 1);
                 for (std::size_t i = 0; i < count; ++i) {
                     const Point3 point = at_weights(corners[first + i], w);
                     const TangentPlaneOffset found =
@@ -277,8 +271,8 @@ PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3>
     }
     if (!far.empty()) far = look_again(surface, points, uv, size, found, far, result.distance);
     if (far.empty()) return result;
-    const ClosestPoints closest = closest_points_across_sides(
-        surface, all(chosen(points, far)), all(chosen(uv, far)), PROJECTION_STEPS);
+    const ClosestPoints closest = closest_points_across_sides(surface, chosen(points, far),
+                                                              chosen(uv, far), PROJECTION_STEPS);
     for (std::size_t k = 0; k < far.size(); ++k) result.distance[far[k]] = closest.distance[k];
     return result;
 }
@@ -293,8 +287,8 @@ Array<double> vertex_deviations(SurfaceReader& surface, std::span<const Point3> 
         if (!(distance[i] <= ON_SURFACE * size[i])) off.push_back(static_cast<std::int32_t>(i));
     }
     if (off.empty()) return distance;
-    const PointDeviations closely = point_deviations(surface, all(chosen(points, off)),
-                                                     all(chosen(uv, off)), all(chosen(size, off)));
+    const PointDeviations closely =
+        point_deviations(surface, chosen(points, off), chosen(uv, off), chosen(size, off));
     for (std::size_t k = 0; k < off.size(); ++k) distance[off[k]] = closely.distance[k];
     return distance;
 }

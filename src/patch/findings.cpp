@@ -54,8 +54,7 @@ Array<std::uint8_t> without_crease(PatchState& state, const Array<HalfEdgePair>&
         alike.push_back(number[state.t.tri[e]] == number[state.t.tri[f]]);
     }
     Array<std::uint8_t> kept =
-        on_crease(state.surface(), {beside.data(), beside.size()}, {alike.data(), alike.size()},
-                  *state.asked().angle, state.diagonal());
+        on_crease(state.surface(), beside, alike, *state.asked().angle, state.diagonal());
     for (std::uint8_t& creased : kept) creased = !creased;
     return kept;
 }
@@ -92,8 +91,7 @@ Array<Triangle> find_folds(PatchState& state) {
     }
     if (suspects.empty()) return folded;
     const Array<std::uint8_t> at_corner = find_folded(state.t, state.frames, LEAST_AT_CORNER, 0.0);
-    const Array<double> cosine = cosines_with_surface(
-        state.surface(), {corners.data(), corners.size()}, {uv.data(), uv.size()});
+    const Array<double> cosine = cosines_with_surface(state.surface(), corners, uv);
     const Array<std::uint8_t> kink = marked_kinks(state);
     for (std::size_t i = 0; i < suspects.size(); ++i) {
         const HalfEdge e = 3 * suspects[i];

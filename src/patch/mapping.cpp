@@ -19,11 +19,7 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
         for (std::size_t v = first; v < last; ++v) found.uv[v] = state.chart().to_uv(t.xy[v]);
     });
     for (std::size_t k = 0; k < node_uv.size(); ++k) found.uv[state.nodes().vertex[k]] = node_uv[k];
-    found.seamless = identify_seams({{t.tri.data(), t.tri.size()},
-                                     {t.adj.data(), t.adj.size()},
-                                     {t.region.data(), t.region.size()},
-                                     t.vertices()},
-                                    boundary);
+    found.seamless = identify_seams({t.tri, t.adj, t.region, t.vertices()}, boundary);
     const std::span<const std::int64_t> vertex{found.seamless.vertex.data(),
                                                found.seamless.vertex.size()};
     found.sizes = Array<double>::unfilled(vertex.size());
@@ -38,7 +34,7 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
                 found.sizes[k] = size * state.frames.scale[v];
                 places.push_back(found.uv[v]);
             }
-            reader.read({places.data(), places.size()}, 0);
+            reader.read(places, 0);
             std::copy(reader[0].begin(), reader[0].end(), found.points.data() + first);
         });
     return found;

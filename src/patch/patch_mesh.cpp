@@ -84,7 +84,7 @@ void PatchWork::optimise_and_map() {
     if (task_.optimise) {
         const Unmended left = optimise(state, task_.first);
         const Array<std::uint8_t> off = off_surface(state);
-        if (!state.stopped()) made_.requests = size_requests(state, left, {off.data(), off.size()});
+        if (!state.stopped()) made_.requests = size_requests(state, left, off);
         state.restore_nodes();
         state.hold_growth(true);  // what has moved and was swapped last has other neighbours
     } else {
@@ -92,7 +92,7 @@ void PatchWork::optimise_and_map() {
     }
     if (has_stopped(state) || !begins(PatchStage::mapping)) return;
     const Array<Point2> uv = parameters_in_use();
-    made_.mapped = map_to_space(state, {uv.data(), uv.size()}, identified());
+    made_.mapped = map_to_space(state, uv, identified());
     add_roots(state);
     static_cast<void>(has_stopped(state));
 }
@@ -123,7 +123,7 @@ Array<std::uint8_t> PatchWork::off_surface(PatchState& state) const {
     const Array<Point3>& point = state.nodes().point;
     if (!task_.asked.chord || point.empty() || state.stopped()) return off;
     const Array<Point2> uv = parameters_in_use();
-    state.surface().read({uv.data(), uv.size()}, 0);
+    state.surface().read(uv, 0);
     const std::span<const Point3> image = state.surface()[0];
     for (std::size_t k = 0; k < point.size(); ++k)
         off.push_back(norm(point[k] - image[k]) > OFF_SURFACE * *task_.asked.chord);
@@ -134,7 +134,7 @@ IdentifiedBoundary PatchWork::identified() const {
     const auto* loops = std::get_if<LoopBoundary>(&boundary_);
     if (loops == nullptr) return {};
     const Array<Vertex>& node = made_.domain.node;
-    return {{node.data(), node.size()}, loops->segments, loops->identity};
+    return {node, loops->segments, loops->identity};
 }
 
 void PatchWork::add_roots(const PatchState& state) {

@@ -25,10 +25,6 @@ constexpr std::size_t VERTICES_TOGETHER = 1 << 12;  // vertices put on the surfa
 constexpr double BESIDE_KINK = 1e-6;
 constexpr Point2 AROUND_KINK[] = {{1.0, 0.4}, {-1.0, -0.4}, {0.4, -1.0}, {-0.4, 1.0}};
 
-std::span<const Vertex> all(const Array<Vertex>& vertices) {
-    return {vertices.data(), vertices.size()};
-}
-
 Array<Vertex> vertices_from(Vertex first, Vertex end) {
     Array<Vertex> numbers(static_cast<std::size_t>(end - first));
     std::iota(numbers.begin(), numbers.end(), first);
@@ -56,7 +52,7 @@ void read_mean_slopes(SurfaceReader& surface, std::span<const Point2> uv, Array<
             places[k] = {std::min(std::max(to.x, box.low.x), box.high.x),
                          std::min(std::max(to.y, box.low.y), box.high.y)};
         }
-        surface.read({places.data(), places.size()}, 1);
+        surface.read(places, 1);
         for (std::size_t k = 0; k < uv.size(); ++k) {
             ru[k] = way == 0 ? surface[1][k] : ru[k] + surface[1][k];
             rv[k] = way == 0 ? surface[2][k] : rv[k] + surface[2][k];
@@ -89,7 +85,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       largest_(1e3 * setting.background.box.largest /
                std::max(setting.chart.u.extent, setting.chart.v.extent)) {
     frames.limits = {setting.asked.min_size, most_vertices(t.xy.size(), frames.is_anisotropic)};
-    set_frames(all(vertices_from(0, t.vertices())));
+    set_frames(vertices_from(0, t.vertices()));
     place_nodes();
 }
 
@@ -139,8 +135,8 @@ void PatchState::set_block(SurfaceReader& reader, std::span<const Vertex> vertic
         rates[k] = at.rates;
     }
     Array<Point3> ru, rv;
-    if (on_kink) read_mean_slopes(reader, {uv.data(), uv.size()}, ru, rv);
-    reader.read({uv.data(), uv.size()}, 1);
+    if (on_kink) read_mean_slopes(reader, uv, ru, rv);
+    reader.read(uv, 1);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Point3 du = on_kink ? ru[k] : reader[1][k], dv = on_kink ? rv[k] : reader[2][k];
         set_frame(t, frames, vertices[k], {reader[0][k], rates[k].x * du, rates[k].y * dv},
@@ -155,14 +151,14 @@ void PatchState::renew_frames(std::span<const Vertex> vertices, double drift) {
                                       for (const Vertex v : vertices.subspan(first, last - first))
                                           if (frames.drift[v] > drift) own.push_back(v);
                                   });
-    set_frames(all(far));
+    set_frames(far);
 }
 
-void PatchState::settle() { renew_frames(all(vertices_from(0, t.vertices())), 0.0); }
+void PatchState::settle() { renew_frames(vertices_from(0, t.vertices()), 0.0); }
 
 void PatchState::set_frames_on_kinks() {
     if (nodes_.on_kinks.empty()) return;
-    set_sized_frames(all(nodes_.on_kinks), true);
+    set_sized_frames(nodes_.on_kinks, true);
     place_nodes();
 }
 
@@ -191,7 +187,7 @@ int PatchState::smooth(double stiffness) {
     if (stopped()) return 0;
     find_stars();
     surfmesh::smooth(t, frames, stars, marks, stiffness, still, moved);
-    renew_frames(all(moved), kept_drift);
+    renew_frames(moved, kept_drift);
     ++passes;
     return static_cast<int>(moved.size());
 }
@@ -200,14 +196,14 @@ void PatchState::raise_worst(double least) {
     if (stopped()) return;
     find_stars();
     surfmesh::raise_worst(t, frames, stars, marks, least, moved);
-    renew_frames(all(moved), kept_drift);
+    renew_frames(moved, kept_drift);
 }
 
 void PatchState::bring_nearer(std::span<const Triangle> triangles, StarBounds bounds) {
     if (stopped()) return;
     find_stars();
     surfmesh::bring_nearer(t, frames, stars, marks, triangles, bounds, moved);
-    renew_frames(all(moved), kept_drift);
+    renew_frames(moved, kept_drift);
 }
 
 void PatchState::swap(double good) {
@@ -297,7 +293,7 @@ void PatchState::restore_nodes() {
         stopped())
         return;
     find_stars();
-    restore_scales(t, frames, stars, {nodes_.vertex.data(), nodes_.vertex.size()}, *asked().slope);
+    restore_scales(t, frames, stars, nodes_.vertex, *asked().slope);
 }
 
 void PatchState::end_passes() {
@@ -317,7 +313,7 @@ void PatchState::end_passes() {
 int PatchState::set_new(Vertex first) {
     const Array<Vertex> added = vertices_from(first, t.vertices());
     if (added.empty()) return 0;
-    set_frames(all(added));
+    set_frames(added);
     stars_known_ = false;
     splits += static_cast<int>(added.size());
     return static_cast<int>(added.size());

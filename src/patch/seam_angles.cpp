@@ -54,8 +54,7 @@ DihedralAngles dihedrals_across_seams(const Triangulation& t, const Array<Point3
         const BorderEdge &p = edges[k], &q = edges[k + 1];
         if (p.low == q.low && p.high == q.high) found.edges.push_back({p.edge, q.edge});
     }
-    found.angles = dihedral_angles({point.data(), point.size()}, {t.tri.data(), t.tri.size()},
-                                   {found.edges.data(), found.edges.size()});
+    found.angles = dihedral_angles(point, t.tri, found.edges);
     return found;
 }
 

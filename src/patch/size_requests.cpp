@@ -64,7 +64,7 @@ SizeLimitArrays WantedFactors::limits(double least) const {
 /// Limits under which triangles would come to lie within ``chord``.
 SizeLimitArrays limits_for_chord(PatchState& state, const Array<Triangle>& triangles) {
     const double chord = *state.asked().chord;
-    const Array<double> error = deviations(state, {triangles.data(), triangles.size()}, chord);
+    const Array<double> error = deviations(state, triangles, chord);
     WantedFactors wanted(state);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         wanted.want(triangles[k],
@@ -80,8 +80,7 @@ SizeLimitArrays limits_for_folds(PatchState& state, const Array<Triangle>& trian
     const auto at = [&](HalfEdge e) { return state.chart().to_uv(state.t.xy[state.t.tri[e]]); };
     for (const Triangle k : triangles) uv.push_back({at(3 * k), at(3 * k + 1), at(3 * k + 2)});
     const double radius = sharp_radius(state.asked(), state.diagonal());
-    const Array<std::uint8_t> sharp =
-        bends_sharply(state.surface(), {uv.data(), uv.size()}, radius);
+    const Array<std::uint8_t> sharp = bends_sharply(state.surface(), uv, radius);
     WantedFactors wanted(state);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         if (!sharp[k]) wanted.want(triangles[k], FOLD_FACTOR);

@@ -36,10 +36,6 @@ constexpr double BAD_AT_LAST = 0.9, KEPT_AT_LAST = 0.98;
 
 using Triangles = Array<Triangle>;
 
-std::span<const Triangle> every(const Triangles& triangles) {
-    return {triangles.data(), triangles.size()};
-}
-
 /// Those of the triangles with more than ``limit``.
 Triangles above(const Triangles& triangles, const Array<double>& deviation, double limit) {
     Triangles found;
@@ -89,8 +85,7 @@ Triangles SurfaceApproach::shrink_in_rounds(int rounds, bool splits) {
     state_.marks.active.fill(0);  // the rest is as smooth as it will be
     for (int round = 0; round < rounds && !suspects.empty() && !state_.stopped(); ++round) {
         const Array<double> error = tracked_.measure(suspects);
-        if (shrink_far(state_.t, state_.frames, state_.marks, every(suspects),
-                       {error.data(), error.size()}, limit,
+        if (shrink_far(state_.t, state_.frames, state_.marks, suspects, error, limit,
                        splits ? SMALLEST_SCALE : STEERED_SCALE) == 0)
             break;
         state_.hold_growth(false);
@@ -110,7 +105,7 @@ Triangles SurfaceApproach::shrink_in_rounds(int rounds, bool splits) {
 Triangles SurfaceApproach::move_far(Triangles far, int rounds) {
     for (int round = 0; round < rounds && !far.empty() && !state_.stopped(); ++round) {
         tracked_.start_round();
-        state_.bring_nearer(every(far), {ESTIMATE_MARGIN * chord_, LEAST_SHAPE});
+        state_.bring_nearer(far, {ESTIMATE_MARGIN * chord_, LEAST_SHAPE});
         if (state_.moved.empty()) break;
         tracked_.add_moved();
         far = left_of(tracked_.changed(far));
@@ -124,7 +119,7 @@ Triangles SurfaceApproach::raise_bad(Triangles far) {
     const Triangles bad = triangles_below(state_.t, state_.frames, BAD_AT_LAST);
     if (bad.empty()) return far;
     tracked_.start_round();
-    state_.bring_nearer(every(bad), {ESTIMATE_MARGIN * chord_, KEPT_AT_LAST});
+    state_.bring_nearer(bad, {ESTIMATE_MARGIN * chord_, KEPT_AT_LAST});
     if (state_.moved.empty()) return far;
     tracked_.add_moved();
     return move_far(left_of(tracked_.changed(far)), MOVES_AFTER_INSERTION);
@@ -146,7 +141,7 @@ Triangles SurfaceApproach::insert_far(Triangles far) {
     for (int round = 0; round < INSERTION_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
         tracked_.start_round();
         state_.marks.active.fill(0);
-        if (state_.split_farthest(every(farthest_of(far))) == 0) break;
+        if (state_.split_farthest(farthest_of(far)) == 0) break;
         for (int pass = 0; pass < 2 && round < SMOOTHED_ROUNDS; ++pass) {
             state_.swap();
             if (pass == 0 && state_.on_lattice()) state_.swap_for_degree();
@@ -170,7 +165,7 @@ Triangles SurfaceApproach::split_far(Triangles far, bool first) {
     const Triangles at_first = many ? far : Triangles{};
     for (int round = 0; round < SPLIT_ROUNDS && !state_.stopped(); ++round) {
         tracked_.start_round();
-        if (state_.split_farthest(every(far)) == 0) break;
+        if (state_.split_farthest(far) == 0) break;
         far = left_of(tracked_.changed(far));
     }
     return many ? at_first : far;

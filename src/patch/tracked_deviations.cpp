@@ -56,7 +56,7 @@ Array<Triangle> TrackedDeviations::suspects() const {
 }
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
-    Array<double> found = deviations(state_, {triangles.data(), triangles.size()}, chord_);
+    Array<double> found = deviations(state_, triangles, chord_);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const double guess = estimate(state_, triangles[k]);
         factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;

@@ -143,7 +143,7 @@ void lower_gaps(const SampledEdges& sampled, const EdgeRuns& runs, std::int64_t 
     Array<RunOfEdge> near;
     std::size_t nearest_run = 0;
     const auto lower = [&](std::int64_t p) {
-        lower_gap(sampled, runs, p, b, {near.data(), near.size()}, nearest_run, found);
+        lower_gap(sampled, runs, p, b, near, nearest_run, found);
     };
     const std::int64_t end = sampled.first[a + 1] - 1;
     std::int64_t box = runs.first_box[a];
@@ -280,8 +280,8 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
             for (std::int64_t k = uses.first[a]; k < uses.first[a + 1]; ++k) {
                 near[static_cast<std::size_t>(uses.faces[k])].of(found.boxes[a],
                                                                  std::sqrt(farthest[a]), rows);
-                lower_gaps_in_face(sampled, runs, static_cast<std::int64_t>(a),
-                                   {rows.data(), rows.size()}, farthest[a], found);
+                lower_gaps_in_face(sampled, runs, static_cast<std::int64_t>(a), rows, farthest[a],
+                                   found);
             }
     });
     return found;

@@ -56,8 +56,8 @@ class PatchSearch {
             const View view = view_of(n);
             grow(static_cast<std::int32_t>(t), view);
             if (members_.size() < FEWEST) continue;
-            number_as_patch({members_.data(), members_.size()});
-            keep_if_simple({members_.data(), members_.size()}, view);
+            number_as_patch(members_);
+            keep_if_simple(members_, view);
         }
         return std::move(patch_);
     }
@@ -108,7 +108,7 @@ class PatchSearch {
     /// Are triangles with a number of their own, whose rim is gathered, a patch? If not, those of
     /// both halves may be: where it winds round an axis, parts of it are.
     void keep_if_simple(std::span<const std::int32_t> members, const View& view) {
-        if (is_simple_rim({rim_.data(), rim_.size()})) return;
+        if (is_simple_rim(rim_)) return;
         for (const std::int32_t t : members) patch_[t] = NIL;
         const std::size_t half = members.size() / 2;
         for (const auto part : {members.first(half), members.subspan(half)}) {

@@ -23,8 +23,6 @@ constexpr std::size_t KNOTS = 1024;
 constexpr double MISSED = 1.5, LONG_STEP = 1.0 / 64.0, FINEST_STEP = 1e-14;
 constexpr std::size_t MOST_STEPS = 4000;
 
-std::span<const double> all(const Array<double>& x) { return {x.data(), x.size()}; }
-
 /// One axis of a surface, and the lines along it.
 struct Lines {
     SurfaceReader& surface;
@@ -64,14 +62,14 @@ ChartAxis axis_of_length(std::span<const double> parameters, std::span<const dou
     axis.knots[0] = parameters.front();
     axis.knots[KNOTS - 1] = parameters.back();
     // slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
-    const MonotoneCubic through_knots(all(x), all(axis.knots));
+    const MonotoneCubic through_knots(x, axis.knots);
     for (std::size_t k = 0; k < KNOTS; ++k) axis.slopes[k] = through_knots.derivative(x[k]);
     return axis;
 }
 
 /// From mean speeds at even steps from low to high.
 ChartAxis axis_of_speeds(double low, double high, Array<double> speed) {
-    double average = mean(all(speed));
+    double average = mean(speed);
     if (!(average > 0.0)) {
         average = 1.0;
         speed.fill(1.0);
@@ -90,7 +88,7 @@ ChartAxis axis_of_speeds(double low, double high, Array<double> speed) {
     const double scale = extent / length[count - 1];
     for (double& x : length) x *= scale;
     length[count - 1] = extent;
-    return axis_of_length(all(parameters), all(length));
+    return axis_of_length(parameters, length);
 }
 
 /// From one line across, as the speed is the same all along the axis.
@@ -98,10 +96,10 @@ ChartAxis steady_axis(const Lines& lines) {
     Array<Point2> uv(ACROSS);
     for (std::size_t line = 0; line < ACROSS; ++line)
         uv[line] = lines.at(0.5 * (lines.low + lines.high), line);
-    lines.surface.read({uv.data(), uv.size()}, 1);
+    lines.surface.read(uv, 1);
     Array<double> speed(ACROSS);
     for (std::size_t line = 0; line < ACROSS; ++line) speed[line] = lines.speed(line);
-    const double average = mean(all(speed));
+    const double average = mean(speed);
     return linear_axis(lines.low, lines.high, average > 0.0 ? average : 1.0);
 }
 
@@ -111,7 +109,7 @@ Array<Point3> points_at(const Lines& lines, std::span<const double> s) {
     uv.reserve(s.size() * ACROSS);
     for (const double x : s)
         for (std::size_t line = 0; line < ACROSS; ++line) uv.push_back(lines.at(x, line));
-    lines.surface.read({uv.data(), uv.size()}, 0);
+    lines.surface.read(uv, 0);
     return Array<Point3>(lines.surface[0]);
 }
 
@@ -133,7 +131,7 @@ void halve(const Lines& lines, std::span<const std::uint8_t> is_long, Array<doub
     Array<double> middle;
     for (std::size_t k = 0; k < is_long.size(); ++k)
         if (is_long[k] != 0) middle.push_back(0.5 * (s[k] + s[k + 1]));
-    const Array<Point3> between = points_at(lines, all(middle));
+    const Array<Point3> between = points_at(lines, middle);
     Array<double> all_s;
     Array<Point3> all_r;
     std::size_t next = 0;
@@ -160,17 +158,17 @@ ChartAxis axis_of_chords(const Lines& lines) {
     for (std::size_t k = 0; k < count; ++k)
         s[k] = lines.low + static_cast<double>(k) * (range / static_cast<double>(count - 1));
     s[count - 1] = lines.high;
-    Array<Point3> r = points_at(lines, all(s));
+    Array<Point3> r = points_at(lines, s);
     Array<double> steps = mean_steps(r);
-    double total = pairwise_sum(all(steps));
+    double total = pairwise_sum(steps);
     while (s.size() <= MOST_STEPS) {
         Array<std::uint8_t> is_long(steps.size());
         for (std::size_t k = 0; k < steps.size(); ++k)
             is_long[k] = steps[k] > LONG_STEP * total && s[k + 1] - s[k] > FINEST_STEP * range;
         if (std::find(is_long.begin(), is_long.end(), 1) == is_long.end()) break;
-        halve(lines, {is_long.data(), is_long.size()}, s, r);
+        halve(lines, is_long, s, r);
         steps = mean_steps(r);
-        total = pairwise_sum(all(steps));
+        total = pairwise_sum(steps);
     }
     Array<double> length(s.size());
     length[0] = 0.0;
@@ -178,7 +176,7 @@ ChartAxis axis_of_chords(const Lines& lines) {
         const double least = SLOWEST * total * (s[k + 1] - s[k]) / range;
         length[k + 1] = length[k] + std::max(steps[k], least);
     }
-    return axis_of_length(all(s), all(length));
+    return axis_of_length(s, length);
 }
 
 /// From speeds on lines across and along, or from chords where the speeds miss something.
@@ -193,18 +191,18 @@ ChartAxis sampled_axis(const Lines& lines) {
         if (!lines.pieces.empty()) rate[k] = rate_of_bending(lines.pieces, s);
         for (std::size_t line = 0; line < ACROSS; ++line) uv[line * count + k] = lines.at(s, line);
     }
-    lines.surface.read({uv.data(), uv.size()}, 1);
+    lines.surface.read(uv, 1);
     Array<double> speed(count, 0.0), ways(ACROSS), steps(count - 1), both(count - 1);
     for (std::size_t line = 0; line < ACROSS; ++line) {
         const auto r = lines.surface[0].subspan(line * count, count);
         for (std::size_t k = 0; k < count; ++k) speed[k] += lines.speed(line * count + k) * rate[k];
         for (std::size_t k = 0; k + 1 < count; ++k) steps[k] = length_between(r[k], r[k + 1]);
-        ways[line] = pairwise_sum(all(steps));
+        ways[line] = pairwise_sum(steps);
     }
     for (double& x : speed) x /= static_cast<double>(ACROSS);
     for (std::size_t k = 0; k + 1 < count; ++k) both[k] = speed[k + 1] + speed[k];
-    const double seen = pairwise_sum(all(both)) * 0.5 * range / static_cast<double>(count - 1);
-    const double way = mean(all(ways));
+    const double seen = pairwise_sum(both) * 0.5 * range / static_cast<double>(count - 1);
+    const double way = mean(ways);
     if (std::max(seen, way) <= MISSED * std::min(seen, way))
         return axis_of_speeds(lines.low, lines.high, std::move(speed));
     return axis_of_chords(lines);

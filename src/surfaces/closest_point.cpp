@@ -73,7 +73,7 @@ class Search {
         trials_.clear();
         for (std::size_t k = 0; k < active_.size(); ++k)
             trials_.push_back(within(found_.uv[active_[k]] + steps_[k].uv));
-        surface_.read({trials_.data(), trials_.size()}, is_last ? 0 : 1);
+        surface_.read(trials_, is_last ? 0 : 1);
         for (std::size_t k = 0; k < active_.size(); ++k) judge(k, is_last);
         return true;
     }
@@ -167,8 +167,7 @@ void search_across_sides(SurfaceReader& surface, std::span<const Point3> points,
         from.push_back(guesses[i]);
     }
     if (far.empty()) return;
-    const ClosestPoints other = closest_points_across_sides(surface, {places.data(), places.size()},
-                                                            {from.data(), from.size()}, steps);
+    const ClosestPoints other = closest_points_across_sides(surface, places, from, steps);
     take_nearer(other, far, found);
 }
 
@@ -204,8 +203,7 @@ ClosestPoints closest_points_in_triangles(SurfaceReader& surface, std::span<cons
             const Point2 from = corners[triangle[far[k]]][corner];
             anew[k] = from + FROM_CORNER * (found.uv[far[k]] - from);
         }
-        const ClosestPoints other = closest_points(surface, {places.data(), places.size()},
-                                                   {anew.data(), anew.size()}, steps);
+        const ClosestPoints other = closest_points(surface, places, anew, steps);
         take_nearer(other, far, found);
     }
     search_across_sides(surface, points, guesses, limit, steps, found);

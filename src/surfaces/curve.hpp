@@ -88,7 +88,7 @@ class CurveValues {
   public:
     CurveValues(const Curve& curve, std::span<const double> t, int order)
         : values_(static_cast<std::size_t>(order + 1) * t.size()), count_(t.size()) {
-        curve.evaluate(t, order, {values_.data(), values_.size()});
+        curve.evaluate(t, order, values_);
     }
     /// Derivative k at all parameters.
     [[nodiscard]] std::span<Point3> operator[](int k) const {

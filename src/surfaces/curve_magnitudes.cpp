@@ -61,9 +61,8 @@ bool CurveOnSurface::derivative_magnitudes(std::span<const ParameterRange> range
         middles.push_back(shift_ + rate_ * 0.5 * (first + last));
     }
     Array<Point3> plane(3 * ranges.size());
-    if (!pcurve_->derivative_magnitudes({own.data(), own.size()}, 2, {plane.data(), plane.size()}))
-        return false;
-    const CurveValues middle(*pcurve_, {middles.data(), middles.size()}, 0);
+    if (!pcurve_->derivative_magnitudes(own, 2, plane)) return false;
+    const CurveValues middle(*pcurve_, middles, 0);
     Array<ParameterBox> boxes;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const auto k = static_cast<std::ptrdiff_t>(i);
@@ -73,9 +72,7 @@ bool CurveOnSurface::derivative_magnitudes(std::span<const ParameterRange> range
         boxes.push_back({at - reach, at + reach});
     }
     Array<Point3> r(6 * ranges.size());
-    if (surface_->derivative_magnitudes({boxes.data(), boxes.size()}, 2, {r.data(), r.size()}) !=
-        SurfaceStatus::DONE)
-        return false;
+    if (surface_->derivative_magnitudes(boxes, 2, r) != SurfaceStatus::DONE) return false;
     const double rate = std::abs(rate_);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const Point3 *s = r.data() + 6 * i, *p = plane.data() + 3 * i;

@@ -49,8 +49,7 @@ SurfaceStatus Surface::bend_bounds(std::span<const ParameterBox> cells, std::spa
                                    std::span<Point3> upper) const {
     constexpr std::size_t ALL = 1 + BOUNDED_DERIVATIVES, BENT = 3;
     Array<Point3> low(ALL * cells.size()), high(ALL * cells.size());
-    const SurfaceStatus status =
-        all_bounds(cells, {low.data(), low.size()}, {high.data(), high.size()});
+    const SurfaceStatus status = all_bounds(cells, low, high);
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::size_t from = ALL * i + ALL - BENT;
@@ -65,8 +64,7 @@ SurfaceStatus Surface::derivative_magnitudes(std::span<const ParameterBox> cells
     if (order > 2) return SurfaceStatus::UNKNOWN;
     Array<Point3> lower(BOUNDED_DERIVATIVES * cells.size()),
         upper(BOUNDED_DERIVATIVES * cells.size());
-    const SurfaceStatus status =
-        derivative_bounds(cells, {lower.data(), lower.size()}, {upper.data(), upper.size()});
+    const SurfaceStatus status = derivative_bounds(cells, lower, upper);
     if (status != SurfaceStatus::DONE) return status;
     const std::size_t count = derivative_count(order);
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -123,9 +121,7 @@ SurfaceStatus ExtrusionSurface::derivative_magnitudes(std::span<const ParameterB
     Array<ParameterRange> ranges;
     for (const ParameterBox& cell : cells) ranges.push_back({cell.low.x, cell.high.x});
     Array<Point3> curve(rows * cells.size());
-    if (!curve_->derivative_magnitudes({ranges.data(), ranges.size()}, order,
-                                       {curve.data(), curve.size()}))
-        return SurfaceStatus::UNKNOWN;
+    if (!curve_->derivative_magnitudes(ranges, order, curve)) return SurfaceStatus::UNKNOWN;
     std::fill(out.begin(), out.end(), Point3{0.0, 0.0, 0.0});
     for (std::size_t i = 0; i < cells.size(); ++i)
         for (std::size_t number = 1; number < count; ++number) {
@@ -148,10 +144,8 @@ SurfaceStatus RevolutionSurface::derivative_magnitudes(std::span<const Parameter
         middles.push_back(0.5 * (cell.low.y + cell.high.y));
     }
     Array<Point3> curve(rows * cells.size());
-    if (!curve_->derivative_magnitudes({ranges.data(), ranges.size()}, order,
-                                       {curve.data(), curve.size()}))
-        return SurfaceStatus::UNKNOWN;
-    const CurveValues middle(*curve_, {middles.data(), middles.size()}, 0);
+    if (!curve_->derivative_magnitudes(ranges, order, curve)) return SurfaceStatus::UNKNOWN;
+    const CurveValues middle(*curve_, middles, 0);
     const Point3 axis = size_by_coordinate(axis_);
     const auto beside = [](double a) { return std::sqrt(std::max(0.0, 1.0 - a * a)); };
     const Point3 around{beside(axis.x), beside(axis.y), beside(axis.z)};
@@ -207,14 +201,13 @@ SurfaceStatus OffsetSurface::derivative_magnitudes(std::span<const ParameterBox>
     if (order > 2) return SurfaceStatus::UNKNOWN;
     const std::size_t count = derivative_count(order), third = derivative_count(3);
     Array<Point3> basis(third * cells.size());
-    if (const auto status = basis_->derivative_magnitudes(cells, 3, {basis.data(), basis.size()});
+    if (const auto status = basis_->derivative_magnitudes(cells, 3, basis);
         status != SurfaceStatus::DONE)
         return status;
     Array<Point2> middles;
     for (const auto& [low, high] : cells) middles.push_back(0.5 * (low + high));
     SurfaceValues middle;
-    if (const auto status = middle.evaluate(*basis_, {middles.data(), middles.size()}, 2);
-        status != SurfaceStatus::DONE)
+    if (const auto status = middle.evaluate(*basis_, middles, 2); status != SurfaceStatus::DONE)
         return status;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::span<const Point3> own{basis.data() + i * third, third};

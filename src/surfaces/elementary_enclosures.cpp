@@ -56,7 +56,7 @@ SurfaceStatus Plane::enclose_bends(std::span<const ParameterBox> cells, std::spa
 SurfaceStatus TurnedProfile::enclose(std::span<const Point2> uv,
                                      std::span<EnclosedPoint> out) const {
     Array<Point3> r(uv.size());
-    const auto status = evaluate(uv, 0, {r.data(), r.size()});
+    const auto status = evaluate(uv, 0, r);
     const double origin = largest_of(frame_.origin);
     const double across = largest_of(frame_.x) + largest_of(frame_.y),
                  along_axis = largest_of(frame_.z);

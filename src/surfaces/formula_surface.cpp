@@ -39,7 +39,7 @@ struct Moved {
 void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::span<Point3> out) {
     const std::size_t count = moved.points.size(), derivatives = out.size() / n;
     Array<Point3> found(derivatives * count);
-    evaluate(tape, as_numbers({moved.uv.data(), count}), {found.data(), found.size()});
+    evaluate(tape, as_numbers({moved.uv.data(), count}), found);
     for (std::size_t k = 1; k < derivatives; ++k)
         for (std::size_t i = 0; i < count; ++i)
             out[k * n + static_cast<std::size_t>(moved.points[i])] = found[k * count + i];
@@ -148,8 +148,8 @@ SurfaceStatus FormulaSurface::bounds_from(std::size_t first, Kinks kinks,
         low[i] = cells[i].low;
         high[i] = cells[i].high;
     }
-    bounds(*tapes_[2], as_numbers({low.data(), low.size()}), as_numbers({high.data(), high.size()}),
-           kinks, first, as_numbers(lower), as_numbers(upper));
+    bounds(*tapes_[2], as_numbers(low), as_numbers(high), kinks, first, as_numbers(lower),
+           as_numbers(upper));
     return SurfaceStatus::DONE;
 }
 
@@ -173,7 +173,7 @@ SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
                                       std::span<EnclosedPoint> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
     Array<Ball> found(3 * uv.size());
-    enclose_outputs(*tapes_[0], as_numbers(uv), {found.data(), found.size()});
+    enclose_outputs(*tapes_[0], as_numbers(uv), found);
     for (std::size_t i = 0; i < uv.size(); ++i) out[i] = enclosed(found.data() + 3 * i);
     return SurfaceStatus::DONE;
 }
@@ -188,9 +188,8 @@ SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
         high[i] = cells[i].high;
     }
     Array<Point3> lower(3 * cells.size()), upper(3 * cells.size());
-    enclosures(*tapes_[2], as_numbers({low.data(), low.size()}),
-               as_numbers({high.data(), high.size()}), SECOND,
-               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
+    enclosures(*tapes_[2], as_numbers(low), as_numbers(high), SECOND, as_numbers(lower),
+               as_numbers(upper));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::array<BoxedVector, 3> second;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -214,7 +213,7 @@ SurfaceStatus FormulaSurface::enclose_second(std::span<const Point2> uv,
     for (std::size_t start = 0; start < uv.size(); start += AT_ONCE) {
         const auto some = uv.subspan(start, std::min(AT_ONCE, uv.size() - start));
         found.resize(18 * some.size());
-        enclose_outputs(*tapes_[2], as_numbers(some), {found.data(), found.size()});
+        enclose_outputs(*tapes_[2], as_numbers(some), found);
         for (std::size_t i = 0; i < 6 * some.size(); ++i)
             out[start + i / 6][i % 6] = enclosed(found.data() + 3 * i);
     }
@@ -230,8 +229,7 @@ SurfaceStatus FormulaSurface::enclose_high(std::span<const ParameterBox> cells,
         high[i] = cells[i].high;
     }
     Array<DerivativeBalls> found(3 * cells.size());
-    high_derivatives(*tapes_[0], as_numbers({low.data(), low.size()}),
-                     as_numbers({high.data(), high.size()}), {found.data(), found.size()});
+    high_derivatives(*tapes_[0], as_numbers(low), as_numbers(high), found);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const DerivativeBalls &x = found[3 * i], &y = found[3 * i + 1], &z = found[3 * i + 2];
         for (std::size_t k = 0; k < HIGH_DERIVATIVES; ++k) {

@@ -160,8 +160,7 @@ SurfaceStatus OffsetSurface::enclose_bends(std::span<const ParameterBox> cells,
     Array<Point2> middles;
     for (const auto& [low, high] : cells) middles.push_back(0.5 * (low + high));
     SurfaceValues middle;
-    if (const auto status = middle.evaluate(*basis_, {middles.data(), middles.size()}, 1);
-        status != SurfaceStatus::DONE)
+    if (const auto status = middle.evaluate(*basis_, middles, 1); status != SurfaceStatus::DONE)
         return status;
     PartBoxes parts;
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -31,7 +31,7 @@ double angle_between(Point3 n, Point3 m) {
 void look(SurfaceReader& surface, std::span<Sample> samples, double radius) {
     Array<Point2> uv;
     for (const Sample& s : samples) uv.push_back(s.uv);
-    surface.read({uv.data(), uv.size()}, 2);
+    surface.read(uv, 2);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const FundamentalForms forms = fundamental_forms(
             surface[1][i], surface[2][i], {surface[3][i], surface[4][i], surface[5][i]});
@@ -100,7 +100,7 @@ void halve(SurfaceReader& surface, Array<Turn>& turns, double radius, Array<std:
             turns[kept++] = t;
     turns.resize(kept);
     for (const Turn& t : turns) middles.push_back({0.5 * (t.p.uv + t.q.uv), {}, {}, false});
-    look(surface, {middles.data(), middles.size()}, radius);
+    look(surface, middles, radius);
     for (std::size_t i = 0; i < turns.size(); ++i) {
         Turn& t = turns[i];
         const double first = angle_between(t.p.normal, middles[i].normal);
@@ -120,7 +120,7 @@ Array<std::uint8_t> bends_sharply(SurfaceReader& surface,
     for (const ParameterTriangle& t : triangles)
         for (const auto& w : GRID.weights)
             samples.push_back({w[0] * t[0] + w[1] * t[1] + w[2] * t[2], {}, {}, false});
-    look(surface, {samples.data(), samples.size()}, radius);
+    look(surface, samples, radius);
     Array<Turn> turns;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const std::span<const Sample> own{samples.data() + k * SAMPLES, SAMPLES};

@@ -46,7 +46,7 @@ class SplineBasis {
         : knots_(knots), degree_(static_cast<std::int64_t>(degree)), limits_(limits) {}
 
     [[nodiscard]] std::size_t degree() const { return static_cast<std::size_t>(degree_); }
-    [[nodiscard]] std::span<const double> knots() const { return {knots_.data(), knots_.size()}; }
+    [[nodiscard]] std::span<const double> knots() const { return knots_; }
     [[nodiscard]] double period() const { return limits_.period; }
     [[nodiscard]] const SplineLimits& limits() const { return limits_; }
 
@@ -91,12 +91,10 @@ class FunctionsOfSpline {
           order_(order) {}
 
     void evaluate(const SplineBasis& basis, KnotPlace place) {
-        basis.derivatives(place, order_, {table_.data(), table_.size()},
-                          {values_.data(), values_.size()});
+        basis.derivatives(place, order_, table_, values_);
     }
     void evaluate(const SplineBasis& basis, std::int64_t span, TwoNumbers t) {
-        basis.derivatives(span, t, order_, {table_.data(), table_.size()},
-                          {values_.data(), values_.size()});
+        basis.derivatives(span, t, order_, table_, values_);
     }
     /// Derivative k of all functions of the span.
     [[nodiscard]] const Number* operator[](int k) const {

@@ -119,7 +119,7 @@ SurfaceStatus SplineSurface::enclose(std::span<const Point2> uv,
                                      std::span<EnclosedPoint> out) const {
     if (u_.degree() > HIGHEST_DEGREE || v_.degree() > HIGHEST_DEGREE) return SurfaceStatus::UNKNOWN;
     Array<Point3> r(uv.size());
-    const auto status = evaluate(uv, 0, {r.data(), r.size()});
+    const auto status = evaluate(uv, 0, r);
     double least = 1.0, most = 1.0;
     for (const double w : weights_) {
         least = std::min(least, w);
@@ -198,7 +198,7 @@ std::array<double, 3> SplineSurface::jumps_between(const PartOfCell& before,
                             2.0 * restriction_error(u_.degree() + v_.degree(), largest)};
     const auto side = [along_u](const PartOfCell& part, const Array<Homogeneous>& control) {
         const SpanPart& across = along_u ? part.u : part.v;
-        return CreaseSide{{control.data(), control.size()}, across.last - across.first};
+        return CreaseSide{control, across.last - across.first};
     };
     return crease_jumps(side(before, work.beside), side(after, work.control), shape, directions);
 }

@@ -112,7 +112,7 @@ class SurfaceValues {
     SurfaceStatus evaluate(const Surface& surface, std::span<const Point2> uv, int order) {
         points_ = uv.size();
         values_.resize(derivative_count(order) * points_);
-        return surface.evaluate(uv, order, {values_.data(), values_.size()});
+        return surface.evaluate(uv, order, values_);
     }
     /// Derivative k at all points of the block.
     [[nodiscard]] std::span<const Point3> operator[](std::size_t k) const {

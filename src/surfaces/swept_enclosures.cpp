@@ -41,7 +41,7 @@ SurfaceStatus known_if(bool any, std::size_t asked) {
 SurfaceStatus enclose_by(const Surface& surface, const Curve& curve, bool along_v, double size,
                          std::span<const Point2> uv, std::span<EnclosedPoint> out) {
     Array<Point3> r(uv.size());
-    const auto status = surface.evaluate(uv, 0, {r.data(), r.size()});
+    const auto status = surface.evaluate(uv, 0, r);
     if (status != SurfaceStatus::DONE) return status;
     bool any = false;
     for (std::size_t i = 0; i < uv.size(); ++i) {

@@ -143,7 +143,7 @@ class Tape {
 
     template <class T>
     static std::span<const T> span(const Array<T>& array) {
-        return {array.data(), array.size()};
+        return array;
     }
 
     Program program_;

@@ -221,7 +221,7 @@ void evaluate(const Tape& tape, std::span<const double> points, std::span<Point3
             double* input = slots[static_cast<std::int32_t>(column)];
             for (std::size_t k = 0; k < n; ++k) input[k] = points[(start + k) * inputs + column];
         }
-        run(tape, slots, {spares.data(), spares.size()}, n);
+        run(tape, slots, spares, n);
         for (std::size_t k = 0; k < tape.outputs().size() / 3; ++k) {
             const double *x = slots[tape.outputs()[3 * k]], *y = slots[tape.outputs()[3 * k + 1]],
                          *z = slots[tape.outputs()[3 * k + 2]];

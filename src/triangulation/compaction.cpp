@@ -33,7 +33,7 @@ Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
                 if (used[v]) found.push_back(v);
         });
     if (triangles < LARGE_TRIANGULATION) return inside;
-    return along_hilbert_curve({t.xy.data(), t.xy.size()}, {inside.data(), inside.size()});
+    return along_hilbert_curve(t.xy, inside);
 }
 
 /// The number of each triangle inside, NIL for others, in the order they have.
