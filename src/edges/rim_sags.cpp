@@ -21,12 +21,11 @@ void rim_sags(const CurvePieces& curves, std::int64_t edge, std::span<const doub
     for (std::size_t i = 0; i < segments; ++i) {
         const double from = t0 + fraction[i] * range, to = t0 + fraction[i + 1] * range;
         t.push_back(from);
-        for (const double share : BETWEEN) t.push_back(from + share * (to - from));
+        for (const double fraction : BETWEEN) t.push_back(from + fraction * (to - from));
     }
     t.push_back(t0 + fraction[segments] * range);
     Array<Point3> points(t.size());
-    curves.curves[static_cast<std::size_t>(edge)]->evaluate({t.data(), t.size()}, 0,
-                                                            {points.data(), points.size()});
+    curves.curves[static_cast<std::size_t>(edge)]->evaluate(t, 0, points);
 
     found.sag.clear();
     found.length.clear();

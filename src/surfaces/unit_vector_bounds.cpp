@@ -7,7 +7,7 @@ namespace {
 
 using outward::add, outward::subtract, outward::multiply, outward::exactly;
 
-constexpr Interval SHARE{0.0, 1.0};
+constexpr Interval ZERO_TO_ONE{0.0, 1.0};
 
 Interval square_of(Interval x) { return outward::rounded(intervals::integer_power(x, 2)); }
 
@@ -18,7 +18,7 @@ BoxedVector normal_by_slopes(const BoxedVector& N) {
     const Interval p = multiply(N.x, per_z), q = multiply(N.y, per_z);
     const Interval whole = add(exactly(1.0), add(square_of(p), square_of(q)));
     const Interval root = outward::rounded(intervals::sqrt(whole));
-    const Interval z = outward::common(outward::reciprocal(root), SHARE);
+    const Interval z = outward::common(outward::reciprocal(root), ZERO_TO_ONE);
     return {multiply(p, z), multiply(q, z), z};
 }
 
@@ -48,8 +48,9 @@ BoxedVector across(const BoxedVector& a, const BoxedVector& n, Interval per_leng
     const Interval x = square_of(n.x), y = square_of(n.y), z = square_of(n.z);
     const Interval along_x = multiply(a.x, n.x), along_y = multiply(a.y, n.y),
                    along_z = multiply(a.z, n.z);
-    const auto left = [](Interval own, Interval share, Interval n_own, Interval others) {
-        return subtract(multiply(own, outward::common(share, SHARE)), multiply(n_own, others));
+    const auto left = [](Interval own, Interval fraction, Interval n_own, Interval others) {
+        return subtract(multiply(own, outward::common(fraction, ZERO_TO_ONE)),
+                        multiply(n_own, others));
     };
     return multiply(per_length, {left(a.x, add(y, z), n.x, add(along_y, along_z)),
                                  left(a.y, add(z, x), n.y, add(along_z, along_x)),

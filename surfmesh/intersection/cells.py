@@ -1,4 +1,4 @@
-"""The (u, v) box of a face in cells, halved both ways level after level; an edge in pieces.
+"""The (u, v) box of a face in cells, halved both ways level after level; an edge likewise.
 
 level 0   n_u x n_v cells about as wide as high in space
 level k   each in 2^k x 2^k;  the cell (i, j) holds (2i, 2j) ... (2i + 1, 2j + 1) of the next one
@@ -56,36 +56,36 @@ class FaceCells:
         return boxes_and_cones(self.surface, *self.corners(cells, level))
 
 
-class EdgePieces:
-    """The pieces of one edge: 2^k times FIRST equal fractions at level k."""
+class EdgeCells:
+    """The cells of one edge: 2^k times FIRST equal fractions at level k."""
 
     def __init__(self, edge: CadEdge) -> None:
         self.edge = edge
 
     def start(self) -> np.ndarray:
-        """(n, 1) the pieces of level 0."""
+        """(n, 1) the cells of level 0."""
         return np.arange(FIRST)[:, None]
 
     @staticmethod
-    def children(pieces: np.ndarray) -> np.ndarray:
+    def children(cells: np.ndarray) -> np.ndarray:
         """(n, 1) -> (n, 2, 1) of the next level."""
-        return 2 * pieces[:, None] + np.arange(2)[:, None]
+        return 2 * cells[:, None] + np.arange(2)[:, None]
 
-    def corners(self, pieces: np.ndarray, level: int) -> tuple[np.ndarray, np.ndarray]:
+    def corners(self, cells: np.ndarray, level: int) -> tuple[np.ndarray, np.ndarray]:
         """First and last fractions (n, 1)."""
         count = FIRST * 2.0**level
-        return pieces / count, (pieces + 1) / count
+        return cells / count, (cells + 1) / count
 
-    def bounds(self, pieces: np.ndarray, level: int) -> tuple[Boxes, Cones]:
-        """Boxes of pieces, and cones of their directions."""
-        low, high = self.corners(pieces, level)
+    def bounds(self, cells: np.ndarray, level: int) -> tuple[Boxes, Cones]:
+        """Boxes of cells, and cones of their directions."""
+        low, high = self.corners(cells, level)
         return curve_boxes(self.edge, low[:, 0], high[:, 0])
 
 
 class Numbered:
     """Cells that pairs name, each once, with its bounds: cell ``of[k]`` is that of pair k."""
 
-    def __init__(self, owner: FaceCells | EdgePieces, named: np.ndarray, level: int) -> None:
+    def __init__(self, owner: FaceCells | EdgeCells, named: np.ndarray, level: int) -> None:
         order = np.lexsort(named.T[::-1])
         rows = named[order]
         first = np.ones(len(rows), bool)
@@ -104,7 +104,7 @@ class Numbered:
 class Pairs:
     """Pairs of a cell of the one and a cell of the other: row k of ``a`` and of ``b``."""
 
-    one: FaceCells | EdgePieces
+    one: FaceCells | EdgeCells
     other: FaceCells
     a: np.ndarray
     b: np.ndarray
@@ -112,7 +112,7 @@ class Pairs:
     level_b: int = 0
 
     @staticmethod
-    def of(one: FaceCells | EdgePieces, other: FaceCells) -> Pairs:
+    def of(one: FaceCells | EdgeCells, other: FaceCells) -> Pairs:
         """All pairs of level 0."""
         first, second = one.start(), other.start()
         i, j = (k.ravel() for k in np.meshgrid(np.arange(len(first)), np.arange(len(second))))

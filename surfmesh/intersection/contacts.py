@@ -16,7 +16,7 @@ from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sph
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import Boxes as CellBoxes
-from surfmesh.intersection.cells import EdgePieces, FaceCells
+from surfmesh.intersection.cells import EdgeCells, FaceCells
 from surfmesh.intersection.complex import Complex
 from surfmesh.intersection.edge_meetings import meetings, nearest_on_edge
 from surfmesh.intersection.elementary_distances import distance_to_elementary
@@ -225,8 +225,8 @@ def _box(boxes: CellBoxes) -> tuple[np.ndarray, np.ndarray]:
 def _edge_box(edge: CadEdge) -> tuple[np.ndarray, np.ndarray]:
     if edge.curve is None:
         return np.full(3, np.inf), np.full(3, -np.inf)
-    pieces = EdgePieces(edge)
-    return _box(pieces.bounds(pieces.start(), 0)[0])
+    cells = EdgeCells(edge)
+    return _box(cells.bounds(cells.start(), 0)[0])
 
 
 def _stacked(boxes: list[tuple[np.ndarray, np.ndarray]]) -> Boxes:

@@ -1,8 +1,8 @@
 """Where two edges meet: ends on each other, crossings, touches; and where they run together.
 
 Two edges that are one curve over some length part at the end of one of them, as lines, conics
-and splines without kinks do; so the ends tell where. Elsewhere both are halved: pieces whose boxes
-are apart do not meet, pieces of which no directions are parallel meet once at most.
+and splines without kinks do; so the ends tell where. Elsewhere both are halved: cells whose boxes
+are apart do not meet, cells of which no directions are parallel meet once at most.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.small_matrices import least_squares, norm, product
 from surfmesh.intersection.bounds import Boxes, cross_surely
-from surfmesh.intersection.cells import EdgePieces, Numbered
+from surfmesh.intersection.cells import EdgeCells, Numbered
 
 SEARCHED = 129
 """Points of an edge among which the nearest to a point is looked for first."""
@@ -30,7 +30,7 @@ SMALLEST = 100.0
 """Times what is the same: pairs so small are not halved."""
 
 AROUND = 0.05
-"""Of a piece: how far outside it a place still answers for it."""
+"""Of a cell: how far outside it a place still answers for it."""
 
 PARALLEL = 1e-9
 """Sine between lines that never cross."""
@@ -123,11 +123,11 @@ class _Halving:
         together: list[tuple[float, float]],
     ) -> None:  # fmt: skip
         self.a, self.b, self.same, self.reach, self.together = a, b, same, reach, together
-        self.pieces = EdgePieces(a), EdgePieces(b)
+        self.cells = EdgeCells(a), EdgeCells(b)
         self.found: list[tuple[float, float]] = []
 
     def places(self) -> list[tuple[float, float]]:
-        one, other = self.pieces
+        one, other = self.cells
         i, j = (k.ravel() for k in np.meshgrid(one.start()[:, 0], other.start()[:, 0]))
         for level in range(LEVELS):
             first = Numbered(one, i[:, None], level)
@@ -151,8 +151,8 @@ class _Halving:
         self._find_touches(i, j, level)
         return self.found
 
-    def _is_together(self, pieces: EdgePieces, i: np.ndarray, level: int) -> np.ndarray:
-        low, high = pieces.corners(i[:, None], level)
+    def _is_together(self, cells: EdgeCells, i: np.ndarray, level: int) -> np.ndarray:
+        low, high = cells.corners(i[:, None], level)
         inside = np.zeros(len(i), bool)
         for first, last in self.together:
             inside |= (low[:, 0] >= first - 1e-9) & (high[:, 0] <= last + 1e-9)
@@ -160,14 +160,14 @@ class _Halving:
 
     def _middles(self, i: np.ndarray, j: np.ndarray, level: int) -> tuple[np.ndarray, np.ndarray]:
         (low, high), (low_2, high_2) = (
-            pieces.corners(k[:, None], level) for pieces, k in zip(self.pieces, (i, j))
+            cells.corners(k[:, None], level) for cells, k in zip(self.cells, (i, j))
         )
         return 0.5 * (low + high)[:, 0], 0.5 * (low_2 + high_2)[:, 0]
 
     def _answered(self, i: np.ndarray, j: np.ndarray, level: int) -> np.ndarray:
         """For each pair, has it, or nearly, a place? Those are kept."""
         t, s = self._middles(i, j, level)
-        width = 1.0 / (len(self.pieces[0].start()) * 2.0**level)
+        width = 1.0 / (len(self.cells[0].start()) * 2.0**level)
         at_a, at_b, crosses = self._pulled(t, s)
         off = np.maximum(np.abs(at_a - t), np.abs(at_b - s))
         answered = crosses & (off <= (0.5 + AROUND) * width + 1e-12)

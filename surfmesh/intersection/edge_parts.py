@@ -34,7 +34,7 @@ ONE_PLACE = 1e-6
 """Of the range of a degenerate edge: ways out of a pole so near to each other are one."""
 
 
-class Piece(NamedTuple):
+class EdgePart(NamedTuple):
     """A part of an edge: its number among those of the whole, the fractions of the old edge
     between which it lies, and whether the new edge runs the other way."""
 
@@ -59,7 +59,7 @@ class EdgeParts:
     def __init__(self, contacts: Contacts) -> None:
         self.contacts = contacts
         self.edges: list[CadEdge] = []
-        self.pieces: dict[tuple[int, int], list[Piece]] = {}
+        self.edge_parts: dict[tuple[int, int], list[EdgePart]] = {}
         self.lying: list[Lying] = []
         self.leaving: dict[tuple[int, bool], tuple[np.ndarray | None, np.ndarray | None, int]] = {}
         """Where a part of a degenerate edge starts, or starts when walked backwards, the curve
@@ -83,27 +83,27 @@ class EdgeParts:
         """A coedge of a face cut at the nodes, in walking order."""
         which = self.contacts.sides.index(side)
         found = []
-        for piece in self.pieces[(which, coedge.edge)]:
-            part = self._use(which, side, face, coedge, piece)
-            made = self.edges[piece.edge]
-            leaving = self.leaving.get((piece.edge, part.reversed), (None, None, -1))
+        for edge_part in self.edge_parts[(which, coedge.edge)]:
+            part = self._use(which, side, face, coedge, edge_part)
+            made = self.edges[edge_part.edge]
+            leaving = self.leaving.get((edge_part.edge, part.reversed), (None, None, -1))
             node = made.end if part.reversed else made.start
             found.append(Part(part, node, made.degenerate, leaving))
         return found[::-1] if coedge.reversed else found
 
     def _use(
-        self, which: int, side: Side, face: CadFace, coedge: CadCoedge, piece: Piece
+        self, which: int, side: Side, face: CadFace, coedge: CadCoedge, edge_part: EdgePart
     ) -> CadCoedge:
         """The use of a part; of one that is an edge of the other side at the pace of that."""
-        p0, p1 = coedge.p0 + np.array([piece.first, piece.last]) * (coedge.p1 - coedge.p0)
-        part = replace(coedge, edge=piece.edge, p0=float(p0), p1=float(p1))
-        if which == 0 or not self._is_shared(piece.edge):
+        p0, p1 = coedge.p0 + np.array([edge_part.first, edge_part.last]) * (coedge.p1 - coedge.p0)
+        part = replace(coedge, edge=edge_part.edge, p0=float(p0), p1=float(p1))
+        if which == 0 or not self._is_shared(edge_part.edge):
             return part
-        edge = self.edges[piece.edge]
-        made, off = as_edge_runs(part, edge, piece.turned, face.surface, edge.tolerance)
+        edge = self.edges[edge_part.edge]
+        made, off = as_edge_runs(part, edge, edge_part.turned, face.surface, edge.tolerance)
         if off > edge.tolerance:
-            self.edges[piece.edge] = replace(edge, tolerance=1.1 * off)
-        return replace(made, edge=piece.edge)
+            self.edges[edge_part.edge] = replace(edge, tolerance=1.1 * off)
+        return replace(made, edge=edge_part.edge)
 
     def _is_shared(self, edge: int) -> bool:
         return edge < self._count_first
@@ -112,7 +112,7 @@ class EdgeParts:
         start, end = self.contacts.ends_of(side, edge)
         cuts = sorted((t, node) for node, t in side.cuts[number].items())
         stops = [(0.0, start), *cuts, (1.0, end)]
-        own = self.pieces[(which, number)] = []
+        own = self.edge_parts[(which, number)] = []
         for (t0, first), (t1, last) in pairwise(stops):
             if cuts:
                 part = part_of_edge(edge, t0, t1, first, last)
@@ -120,9 +120,9 @@ class EdgeParts:
                 part = replace(edge, start=first, end=last)
             shared = self._same_edge(part) if which else None
             if shared is not None:
-                own.append(Piece(shared[0], t0, t1, shared[1]))
+                own.append(EdgePart(shared[0], t0, t1, shared[1]))
                 continue
-            own.append(Piece(len(self.edges), t0, t1, False))
+            own.append(EdgePart(len(self.edges), t0, t1, False))
             if which == 0:
                 self._between.setdefault(frozenset((first, last)), []).append(len(self.edges))
             self.edges.append(part)
@@ -153,18 +153,18 @@ class EdgeParts:
         for own, number, other, face in self.contacts.lying:
             which, across = sides.index(own), sides.index(other)
             border = {
-                piece.edge for coedge in other.whole.patches[face].face.coedges
-                for piece in self.pieces.get((across, coedge.edge), [])
+                edge_part.edge for coedge in other.whole.patches[face].face.coedges
+                for edge_part in self.edge_parts.get((across, coedge.edge), [])
             }  # fmt: skip
             parts = []
-            for piece in self.pieces[(which, number)]:
-                if piece.edge in border:
-                    parts.append(piece)
+            for edge_part in self.edge_parts[(which, number)]:
+                if edge_part.edge in border:
+                    parts.append(edge_part)
                     continue
-                places = self._places_in_face(piece.edge, across, other, face)
+                places = self._places_in_face(edge_part.edge, across, other, face)
                 if places is not None:
-                    self.lying.append(Lying(piece.edge, across, face, places))
-                    parts.append(piece)
+                    self.lying.append(Lying(edge_part.edge, across, face, places))
+                    parts.append(edge_part)
             self._require_explained(own, number, other, face, parts)
 
     def _places_in_face(self, number: int, which: int, other: Side, face: int) -> np.ndarray | None:
@@ -184,7 +184,7 @@ class EdgeParts:
         return places
 
     def _require_explained(
-        self, own: Side, number: int, other: Side, face: int, parts: list[Piece]
+        self, own: Side, number: int, other: Side, face: int, parts: list[EdgePart]
     ) -> None:
         """Raise where an edge seemed to lie on a face and no part of it does, nor touches it in a
         node."""
@@ -204,7 +204,7 @@ class EdgeParts:
     def _add_pole(self, which: int, side: Side, number: int, edge: CadEdge) -> None:
         """A degenerate edge, cut where curves and edges leave the pole."""
         node = self.contacts.ends_of(side, edge)[0]
-        own = self.pieces[(which, number)] = []
+        own = self.edge_parts[(which, number)] = []
         face_number, coedge = next(
             (k, coedge) for k, patch in enumerate(side.whole.patches)
             for coedge in patch.face.coedges if coedge.edge == number
@@ -229,12 +229,12 @@ class EdgeParts:
         leaving.sort(key=lambda out: out[0])
         stops = [0.0, *(out[0] for out in leaving), 1.0]
         for k, (t0, t1) in enumerate(pairwise(stops)):
-            piece = len(self.edges)
-            own.append(Piece(piece, t0, t1, False))
+            number_of_part = len(self.edges)
+            own.append(EdgePart(number_of_part, t0, t1, False))
             self.edges.append(part_of_edge(edge, t0, t1, node, node))
             if k:  # the place where it starts
-                self.leaving[(piece, False)] = leaving[k - 1][1:]
-                self.leaving[(piece - 1, True)] = leaving[k - 1][1:]
+                self.leaving[(number_of_part, False)] = leaving[k - 1][1:]
+                self.leaving[(number_of_part - 1, True)] = leaving[k - 1][1:]
 
     def _lying_at_pole(
         self, which: int, face: int, coedge: CadCoedge, node: int
@@ -255,11 +255,11 @@ class EdgeParts:
     ) -> bool:
         """Does an edge of a face that comes to a pole lie in a face of the other side?"""
         for coedge in face.coedges:
-            for piece in self.pieces.get((which, coedge.edge), []):
-                edge = self.edges[piece.edge]
+            for edge_part in self.edge_parts.get((which, coedge.edge), []):
+                edge = self.edges[edge_part.edge]
                 if edge.degenerate or node not in (edge.start, edge.end):
                     continue
-                if any(k.edge == piece.edge and (k.which, k.face) == (across, other)
+                if any(k.edge == edge_part.edge and (k.which, k.face) == (across, other)
                        for k in self.lying):  # fmt: skip
                     return True
         return False

@@ -15,7 +15,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import Boxes, overlap, pierces_surely
-from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered, Pairs
+from surfmesh.intersection.cells import EdgeCells, FaceCells, Numbered, Pairs
 from surfmesh.intersection.newton import Curve, pulled_onto_curve, unit_normals
 from surfmesh.intersection.touching import touch_of_curve
 
@@ -60,7 +60,7 @@ def crossings(edge: CadEdge, cells: FaceCells, same: float) -> Crossings:
 
     same: model units; places nearer than that are one, and gaps below a hundredth of it none.
     """
-    pairs = Pairs.of(EdgePieces(edge), cells)
+    pairs = Pairs.of(EdgeCells(edge), cells)
     found = _Found(same, cells.width)
     reach = same + edge.tolerance
     for _ in range(LEVELS):

@@ -37,7 +37,12 @@ from surfmesh.meshing.estimate.trial_mesh import (
     is_one_round,
     largest_turn,
 )
-from surfmesh.meshing.estimate.trial_patches import SHARE, WIDE, plan_within, triangles_per_unit
+from surfmesh.meshing.estimate.trial_patches import (
+    LARGEST_FRACTION,
+    WIDE,
+    plan_within,
+    triangles_per_unit,
+)
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
@@ -267,7 +272,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
         )
         if made is not None:
             return Estimate.of(made, field.is_anisotropic, least=least)
-    plan = WIDE if field.is_anisotropic else plan_within(SHARE * asked)
+    plan = WIDE if field.is_anisotropic else plan_within(LARGEST_FRACTION * asked)
     each = None if plan is None else triangles_per_unit(part, field, loops, plan)
     return Estimate.of([asked * (each or 1.0)], field.is_anisotropic, least=least)
 

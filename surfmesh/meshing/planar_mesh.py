@@ -198,7 +198,7 @@ def _region_numbers(
     keys = t.tri[half_edges] * width + t.tri[following]
     order = np.argsort(keys)
     first = np.full(count, np.iinfo(np.int64).max)
-    a, b = node[cut.pieces].astype(np.int64).T
+    a, b = node[cut.subsegments].astype(np.int64).T
     for side, wanted in enumerate((a * width + b, b * width + a)):
         place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
         found = (keys[order][place] == wanted) & (a >= 0) & (b >= 0)

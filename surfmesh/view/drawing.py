@@ -87,8 +87,8 @@ def face_legend(drawn: Drawing) -> list[tuple[int, str, str]]:
     colours = drawn.colours
     if not colours.hues:
         return []
-    shares = (np.arange(colours.hues) + 0.5) / colours.hues
-    shades = map_of(colours)(shares)[:, :3]
+    fractions = (np.arange(colours.hues) + 0.5) / colours.hues
+    shades = map_of(colours)(fractions)[:, :3]
     light = shades @ (0.2126, 0.7152, 0.0722)  # as it is seen
     shades *= (READABLE / np.maximum(light, READABLE))[:, None]
     table = np.round(255 * shades).astype(int).tolist()

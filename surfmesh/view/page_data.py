@@ -83,7 +83,7 @@ def page_data(
         "faceNames": [mesh.face_name(i) for i in range(int(mesh.face_ids.max()) + 1)],
         "colourings": entries,
         "lines": lines,
-        "shares": corner_weights(1 if flat is None else PARTS).ravel().tolist(),
+        "weights": corner_weights(1 if flat is None else PARTS).ravel().tolist(),
         "arrays": listed,
     }
     return PageData(contents, packed)

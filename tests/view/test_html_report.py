@@ -115,11 +115,11 @@ def test_quadratic_triangles_are_flat_ones_on_their_curves(tmp_path):
     flat = arrays["facets"].reshape(-1, 3)
     parts = len(flat) // len(mesh.triangles)
     assert parts == 16 and flat.max() < len(points)
-    shares = np.array(contents["shares"]).reshape(parts, 3, 3)
-    straight = np.einsum("pkc,mcx->mpkx", shares, mesh.points[mesh.triangles])
+    weights = np.array(contents["weights"]).reshape(parts, 3, 3)
+    straight = np.einsum("pkc,mcx->mpkx", weights, mesh.points[mesh.triangles])
     off = np.linalg.norm(points[flat.reshape(-1, parts, 3)] - straight, axis=-1)
     longest = np.linalg.norm(mesh.points[mesh.edges[:, 0]] - mesh.points[mesh.edges[:, 1]], axis=1)
-    assert off.max() < 0.2 * longest.max()  # each near the place that its shares say
+    assert off.max() < 0.2 * longest.max()  # each near the place that its weights say
     assert np.ptp(np.linalg.norm(points, axis=1)) < 0.01 * contents["scale"]
 
 

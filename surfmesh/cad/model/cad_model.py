@@ -40,7 +40,7 @@ class CadVertex:
 
 @dataclass(frozen=True, eq=False)
 class CadEdge:
-    """A piece of curve between two vertices; shared by all faces that meet there.
+    """The part of a curve between two vertices; shared by all faces that meet there.
 
     curve: ``evaluate(t (n,), order)`` in 3D, or None for a degenerate edge. t0 < t1 are the
     curve's parameters at the vertices start and end (numbers; the same for a closed edge).
@@ -66,7 +66,7 @@ class CadEdge:
 
     @property
     def is_straight(self) -> bool:
-        """Whether it is a piece of a line."""
+        """Whether it is part of a straight line."""
         return self.curve is not None and self.curve.kind == "line"
 
     def parameters(self, fraction: np.ndarray) -> np.ndarray:
@@ -101,7 +101,7 @@ class CadCoedge:
 
     @property
     def is_straight(self) -> bool:
-        """Whether it is a piece of a line in (u, v)."""
+        """Whether it is part of a straight line in (u, v)."""
         return self.pcurve.kind == "line"
 
     def uv(self, fraction: np.ndarray) -> np.ndarray:
@@ -117,7 +117,7 @@ class CadCoedge:
 
 @dataclass(frozen=True, eq=False)
 class CadFace:
-    """A piece of surface inside loops.
+    """The part of a surface inside loops.
 
     surface: its domain is the (u, v) box of the loops. loops: coedges in walking order with the
     inside on the left in (u, v); the outer loop first. reversed: the face's normal is

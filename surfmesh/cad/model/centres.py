@@ -3,7 +3,7 @@
 A face is integrated by Green's theorem: along its loops runs the integral of |r_u x r_v| in u,
 from the left side of the (u, v) box, by Gauss's rule.
 
-    v |    ,-----.         for each piece of the boundary, from (u, v) to (u + du, v + dv):
+    v |    ,-----.         for each step of the boundary, from (u, v) to (u + du, v + dv):
       |---/       \\            dA = dv * int_{u0}^{u} |r_u x r_v| du
       |  |<------- |
       |   `-------'

@@ -54,8 +54,8 @@ def _model_facts(model: CadModel) -> ModelFacts:
 def euler_number(model: CadModel, faces: Iterable[int]) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
-    One with islands, or with outer loops beside each other, is several pieces: 2 for each. Loops
-    of one piece that meet in a vertex cut a way between them: 1 for each meeting.
+    One with islands, or with outer loops beside each other, has several components: 2 for each.
+    Loops of one component that meet in a vertex cut a way between them: 1 for each meeting.
 
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
     edge and one face. So is an edge that the mesh has as one vertex, being tiny.
@@ -88,21 +88,21 @@ class _EulerNumbers:
         return len(vertices) - len(edges) + inside
 
     def _inside_of(self, face: CadFace) -> int:
-        """Of its pieces without their borders: 2 for each, less one for each border."""
+        """Of its components without their borders: 2 for each, less one for each border."""
         if vanishes(self.model, face):
             return 0
         if len(face.loops) < 2:
             return 2 - len(face.loops)
-        pieces = _pieces(face, self._collapsed)
+        components = _components(face, self._collapsed)
         touches = sum(
-            len(loops) - len({pieces[loop] for loop in loops})
+            len(loops) - len({components[loop] for loop in loops})
             for loops in _meetings(self.model, face, self._number)
         )
-        return 2 * len(set(pieces)) - len(face.loops) + touches
+        return 2 * len(set(components)) - len(face.loops) + touches
 
 
-def _pieces(face: CadFace, collapsed: Sequence[bool]) -> list[int]:
-    """For each loop the outer one of the piece of the face that it bounds.
+def _components(face: CadFace, collapsed: Sequence[bool]) -> list[int]:
+    """For each loop the outer one of the component of the face that it bounds.
 
     Of two outer loops around a hole the smaller counts: an island lies within its hole.
     """
@@ -117,15 +117,15 @@ def _pieces(face: CadFace, collapsed: Sequence[bool]) -> list[int]:
         and closes(loop, extent)
         and not all(collapsed[c.edge] for c in loop)
     ]
-    pieces = list(range(len(face.loops)))
+    components = list(range(len(face.loops)))
     if len(outer) == 1:
-        return [0] * len(pieces)
+        return [0] * len(components)
     polygons = [walked(list(loop), _ALONG).reshape(-1, 2) for loop in face.loops]
     around = sorted(outer[1:], key=lambda number: areas[number])
-    for number in set(pieces) - set(outer):
+    for number in set(components) - set(outer):
         holds = (k for k in around if np.mean(is_inside([polygons[k]], polygons[number])) > 0.5)
-        pieces[number] = next(holds, 0)
-    return pieces
+        components[number] = next(holds, 0)
+    return components
 
 
 _ALONG = np.linspace(0.0, 1.0, 24, endpoint=False)
@@ -135,7 +135,7 @@ _ALONG = np.linspace(0.0, 1.0, 24, endpoint=False)
 def _meetings(model: CadModel, face: CadFace, number: list[int]) -> list[set[int]]:
     """The loops of a face at each place of (u, v) where they pass through a vertex.
 
-    Where two that bound one piece do, the way between them is cut.
+    Where two that bound one component do, the way between them is cut.
     """
     (u0, u1), (v0, v1) = face.surface.domain
     near = SAME_PLACE * np.array([u1 - u0, v1 - v0])

@@ -25,8 +25,8 @@ SAME_STOP = 1e-9
 _CLOSED_SEGMENTS = 3
 """Fewest segments of a side that is a closed curve in 3D, fewer are not a polygon."""
 
-RIM_ROUNDS, RIM_MARGIN, MANY_PIECES = 8, 0.98, 64
-"""How often a rim is cut anew; what is aimed at, as a fraction of ``chord``; from so many pieces
+RIM_ROUNDS, RIM_MARGIN, MANY_SEGMENTS = 8, 0.98, 64
+"""How often a rim is cut anew; what is aimed at, as a fraction of ``chord``; from so many segments
 those that sag too much are halved, rather than all made shorter."""
 
 RIM_SAMPLES = (0.25, 0.5, 0.75)
@@ -224,7 +224,7 @@ def _ends_meet(sides: SideTopology, side: int) -> bool:
 def cut_line(
     field: SizeField, start: np.ndarray, end: np.ndarray, minimum: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Cut a straight line of (u, v) into pieces of equal metric length near 1.
+    """Cut a straight line of (u, v) into segments of equal metric length near 1.
 
     Returns t (n + 1,) from 0 to 1 and uv (n + 1, 2), whose ends are exact.
     """
@@ -243,11 +243,11 @@ def cut_line(
         if samples >= 16 * metric[-1] or samples >= 1 << 22:
             break
         samples = 1 << int(np.ceil(np.log2(min(20 * metric[-1], 1 << 22))))
-    pieces = max(minimum, round(metric[-1]))
+    segments = max(minimum, round(metric[-1]))
     if metric[-1] > 0.0:
-        t = np.interp(np.linspace(0.0, metric[-1], pieces + 1), metric, t)
+        t = np.interp(np.linspace(0.0, metric[-1], segments + 1), metric, t)
     else:
-        t = np.linspace(0.0, 1.0, pieces + 1)
+        t = np.linspace(0.0, 1.0, segments + 1)
     t[0], t[-1] = 0.0, 1.0
     uv = start + t[:, None] * (end - start)
     uv[-1] = end
@@ -257,9 +257,9 @@ def cut_line(
 def cut_rim(
     surface: Surface, field: SizeField, start: np.ndarray, end: np.ndarray, minimum: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Like ``cut_line``, with more pieces while one of them sags by more than ``chord``.
+    """Like ``cut_line``, with more segments while one sags by more than ``chord``.
 
-    A few pieces may be half as long again as wanted, and between samples a rim may bend more.
+    A few segments may be half as long again as wanted, and between samples a rim may bend more.
     None becomes shorter than about ``min_size``.
     """
     t, uv = cut_line(field, start, end, minimum)
@@ -272,7 +272,7 @@ def cut_rim(
         far = (sag > RIM_MARGIN * chord) & (length > max(1.4 * least, chord))
         if not far.any():
             break
-        if 4 * np.count_nonzero(far) > len(far) and len(far) < MANY_PIECES:
+        if 4 * np.count_nonzero(far) > len(far) and len(far) < MANY_SEGMENTS:
             factor = np.sqrt(sag[far].max() / (RIM_MARGIN * chord))
             t, uv = cut_line(field, start, end, int(np.ceil(min(factor, 2.0) * len(far))))
         else:

@@ -73,13 +73,13 @@ def with_kinks(
 def cut_kink(surface: Any, guides: Guides, line: KinkLine, field: SizeField) -> np.ndarray:
     """Points (n + 1, 2) of a line at equal metric lengths near 1, on the kink, ends included."""
     fine, length = _metric(line, field)
-    pieces = max(CLOSED_SEGMENTS if line.closed else 1, round(length[-1]))
+    segments = max(CLOSED_SEGMENTS if line.closed else 1, round(length[-1]))
     chord = field.sizing.straight_chord
     for _ in range(DOUBLINGS):
-        points = _spread(guides, line, fine, length, pieces)
+        points = _spread(guides, line, fine, length, segments)
         if chord is None or _sag(surface, guides, line, fine, length, points) <= SAG * chord:
             break
-        pieces *= 2
+        segments *= 2
     return points
 
 
@@ -101,9 +101,9 @@ def _at(fine: np.ndarray, length: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def _spread(
-    guides: Guides, line: KinkLine, fine: np.ndarray, length: np.ndarray, pieces: int
+    guides: Guides, line: KinkLine, fine: np.ndarray, length: np.ndarray, segments: int
 ) -> np.ndarray:
-    points = _at(fine, length, np.linspace(0.0, length[-1], pieces + 1))
+    points = _at(fine, length, np.linspace(0.0, length[-1], segments + 1))
     points[1:-1] = guides.on_line(line.guide, points[1:-1], 0.05)
     points[0], points[-1] = line.uv[0], line.uv[-1]
     return points
@@ -114,8 +114,8 @@ def _sag(
     points: np.ndarray,
 ) -> float:  # fmt: skip
     """Largest distance of the kink from the chords of its segments, at their middles."""
-    pieces = len(points) - 1
-    middle = _at(fine, length, (np.arange(pieces) + 0.5) * length[-1] / pieces)
+    segments = len(points) - 1
+    middle = _at(fine, length, (np.arange(segments) + 0.5) * length[-1] / segments)
     middle = guides.on_line(line.guide, middle, 0.05)
     ((ends,), (between,)) = surface.evaluate(points, 0), surface.evaluate(middle, 0)
     start, along = ends[:-1], np.diff(ends, axis=0)

@@ -18,7 +18,7 @@ FIRST_INTERVALS, MOST_HALVINGS = 4, 40
 
 UNEVEN, SHORTEST_INTERVAL, LONGEST_INTERVAL = 1.3, 0.05, 4.0
 """They are halved where sizes differ by this factor, unless shorter than this, and where they
-are longer than so many pieces: a gap in the middle would be missed."""
+are longer than so many nodes would be apart: a gap in the middle would be missed."""
 
 SHORT = 1.0
 """A size source where a segment is shorter than this times the size, or a gap narrower."""
@@ -26,19 +26,20 @@ SHORT = 1.0
 
 @dataclass(frozen=True)
 class PlanarSegments:
-    """Nodes and pieces of segments, in the order of the lines that were given."""
+    """Nodes and subsegments: the parts into which they cut the segments of a graph, in the order of
+    the lines that were given."""
 
     uv: np.ndarray
     """(k, 2) nodes, exact."""
-    pieces: np.ndarray
+    subsegments: np.ndarray
     """(s, 2) int32 pairs of nodes."""
     segment: np.ndarray
-    """(s,) int32, the segment of the graph that each piece is part of."""
+    """(s,) int32, the segment of the graph that each is part of."""
     graph: SegmentGraph
 
 
 def metric_length(graph: SegmentGraph, field: SizeField) -> float:
-    """Of all segments, roughly: about how many pieces they will be cut into."""
+    """Of all segments, roughly: about how many subsegments they will be cut into."""
     start, end = (graph.points[graph.segments[:, k]] for k in (0, 1))
     owner = np.arange(len(start))
     places = [np.full(len(start), t) for t in (0.0, 0.5, 1.0)]
@@ -47,7 +48,7 @@ def metric_length(graph: SegmentGraph, field: SizeField) -> float:
 
 
 def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
-    """Cut every segment into pieces of equal metric length near 1; lone points become nodes."""
+    """Cut every segment into parts of equal metric length near 1; lone points become nodes."""
     order = _walk(graph)
     start, end = (graph.points[graph.segments[order, k]] for k in (0, 1))
     fractions, steps = _metric_steps(field, start, end)
@@ -78,8 +79,8 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     number[unique[np.argsort(seen)]] = np.arange(len(unique), dtype=np.int32)
     uv = np.empty((len(unique), 2))
     uv[number] = np.concatenate([graph.points, between])
-    pieces = np.stack([number[tokens[place]], number[tokens[place + 1]]], axis=1)
-    return PlanarSegments(uv, pieces, np.repeat(order, count).astype(np.int32), graph)
+    subsegments = np.stack([number[tokens[place]], number[tokens[place + 1]]], axis=1)
+    return PlanarSegments(uv, subsegments, np.repeat(order, count).astype(np.int32), graph)
 
 
 def _walk(graph: SegmentGraph) -> np.ndarray:
@@ -199,7 +200,7 @@ def _meeting(
     number = np.repeat(np.arange(s), 2)
     at_point = table(number, graph.segments, (s, len(graph.points))).tocsr()
     touching = (at_point @ at_point.T).tocsr()
-    of_node = table(cut.pieces, np.repeat(cut.segment, 2), (len(cut.uv), s)).tocsr()
+    of_node = table(cut.subsegments, np.repeat(cut.segment, 2), (len(cut.uv), s)).tocsr()
     return np.asarray((of_node @ touching).tocsr()[node, near]).ravel().astype(bool)
 
 

@@ -256,12 +256,12 @@ def _cut(
     model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: np.ndarray,
     mated: Mapping[int, np.ndarray], limit: int,
 ) -> _Cuts:  # fmt: skip
-    """Pieces of equal metric length near 1, or those between given parameters; of all edges."""
+    """Segments of equal metric length near 1, or those between given parameters; of all edges."""
     arrays = model_arrays(model)
     edges = np.flatnonzero(np.diff(samples.first))
     given = [mated.get(edge, _NONE) for edge in edges.tolist()] if mated else []
     first_given = offsets(np.array([len(t) for t in given] or np.zeros(len(edges)), np.int64))
-    first, t, points, found, refused, pieces = cut_to_metric_length(
+    first, t, points, found, refused, segments = cut_to_metric_length(
         arrays.curves, samples.points, samples.t, sizes, samples.first, arrays.mesh_ends,
         arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]),
         _chords(samples)[edges], samples.shortest[edges], limit,
@@ -271,7 +271,8 @@ def _cut(
         edge = model.edges[number]
         raise SizingError(
             f"edge {number} ({edge.name or 'no name'}) of length {edge.length:g} is to be cut in "
-            f"{pieces:,.0f} pieces, the limit is {limit:,} triangles: ask for a larger size there"
+            f"{segments:,.0f} segments, the limit is {limit:,} triangles: ask for a larger size "
+            "there"
         )
     return _Cuts(edges, first, t, points, found)
 

@@ -130,8 +130,8 @@ def combined(inside: np.ndarray, fewest: np.ndarray) -> np.ndarray:
     the loops allow."""
     least = np.maximum(fewest, 1.0)
     larger = np.minimum(np.maximum(inside, least), COUNTABLE)
-    shares = np.minimum(inside / larger, 1.0), np.minimum(least / larger, 1.0)
-    found = larger * (shares[0] ** SHARP + shares[1] ** SHARP) ** (1.0 / SHARP)
+    parts = np.minimum(inside / larger, 1.0), np.minimum(least / larger, 1.0)
+    found = larger * (parts[0] ** SHARP + parts[1] ** SHARP) ** (1.0 / SHARP)
     return np.where(larger < COUNTABLE, found, COUNTABLE)
 
 

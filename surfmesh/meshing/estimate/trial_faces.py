@@ -2,7 +2,7 @@
 
 A face is chosen as often as it holds a quantile of all triangles, so that the mean of what is
 found is that of all triangles. Planes and curved faces are two populations. As many faces are
-tried as cost no more than a share of the mesh.
+tried as cost no more than a fraction of the mesh.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _PLANS = (
 )
 """From the best on."""
 
-SHARE = 0.06
+LARGEST_FRACTION = 0.06
 """Of the triangles that are asked for, so many are made on trial: faces differ more than the parts
 of one; more where sizes depend on the direction."""
 
@@ -72,7 +72,7 @@ def ratios(
     # on a plane the optimiser has nothing to split where sizes are the same all ways
     stretched = np.array([job.sizing.is_anisotropic for job in jobs], bool)
     plane = np.array([job.surface.kind == "plane" for job in jobs], bool)
-    most = SHARE * counts.sum() if not stretched.any() else np.inf
+    most = LARGEST_FRACTION * counts.sum() if not stretched.any() else np.inf
     for of in (np.flatnonzero(plane & stretched), np.flatnonzero(~plane)):
         sums = np.cumsum(counts[of])
         if not len(of) or not sums[-1] > 0.0:

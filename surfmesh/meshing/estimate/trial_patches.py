@@ -28,7 +28,7 @@ from surfmesh.sizing.field.size_field import SizeField
 SMALL_PATCH = 300
 """Triangles of a patch, about, where a larger one does not fit in or would cost too much."""
 
-SHARE = 0.03
+LARGEST_FRACTION = 0.03
 """Of the triangles that a surface of formulas is asked for, so many are made on trial; more where
 sizes depend on the direction, of which the area tells less."""
 

@@ -131,7 +131,7 @@ def _meshed(
     )  # fmt: skip
     uv, nodes = boundary.uv, chart.to_plane(boundary.uv)
     if isinstance(boundary, PlanarSegments):
-        segments = boundary.pieces
+        segments = boundary.subsegments
         graph = boundary.graph
         found = core.mesh_regions(
             settings, uv, nodes, segments, boundary.segment,

@@ -31,7 +31,7 @@ FINEST, COARSEST = 0.5, 0.8
 PASSES = 6
 """How often triangles are cut: bounds fall to a half or less each time."""
 
-FEW, SHARE = 4, 0.02
+FEW, SMALL_FRACTION = 4, 0.02
 """Triangles, and their part of all, up to which they are cut: that gives two more for each."""
 
 MUCH = 0.5
@@ -80,7 +80,7 @@ def cut_until_proved(
         found = proved_distances(surface, face, np.full(len(face.corners), sizing.chord))
         if found is None:
             return patch, None
-        most = max(FEW, SHARE * len(found.bound))
+        most = max(FEW, SMALL_FRACTION * len(found.bound))
         is_bounded = np.isfinite(found.bound)
         left = np.flatnonzero(found.bound > sizing.chord)
         # where much is not bounded, as at poles of offsets, smaller triangles would be no better

@@ -19,7 +19,7 @@ MAX_STALLED_ROUNDS = 2
 """A face is meshed again for its own refinements until so many rounds running were stalled."""
 
 STALLED_PLACES, STALLED_TRIANGLES = 0.9, 1.02
-"""A round is stalled that has left more than this share of the places to be mended, and has less
+"""A round is stalled that has left more than this fraction of the places to be mended, and has less
 than so many times the triangles: smaller sizes do not reach what is wrong."""
 
 MAX_ROUNDS_WITHOUT_BEST = 3

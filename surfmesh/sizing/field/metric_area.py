@@ -51,8 +51,8 @@ def inner_cells(
 def _points(low: np.ndarray, step: np.ndarray) -> np.ndarray:
     """Two by two points of Gauss in each cell (n, 4, 2)."""
     at = np.array([_GAUSS, 1.0 - _GAUSS])
-    share = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
-    return low[:, None] + share * step[:, None]
+    fraction = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+    return low[:, None] + fraction * step[:, None]
 
 
 def _densities(field: SizeField, points: np.ndarray) -> np.ndarray:

@@ -138,13 +138,13 @@ class Rims:
     ) -> SizeLimits | None:
         if not len(self.lines):
             return None
-        pieces = np.full(len(self.lines), max(2, FIRST_SAMPLES // len(self.lines)))
-        points, uv, found = self._sampled(pieces, chord)
-        line = np.repeat(np.arange(len(pieces)), pieces)
-        speed = np.linalg.norm(points[1] - points[0], axis=1)  # lengths of the pieces
-        wanted = np.bincount(line, SAMPLES_AN_EDGE * speed / found.sizes, len(pieces))
-        pieces = np.maximum(pieces, np.ceil(np.minimum(wanted, MOST_SAMPLES)).astype(np.int64))
-        points, uv, found = self._sampled(pieces, chord)
+        parts = np.full(len(self.lines), max(2, FIRST_SAMPLES // len(self.lines)))
+        points, uv, found = self._sampled(parts, chord)
+        line = np.repeat(np.arange(len(parts)), parts)
+        speed = np.linalg.norm(points[1] - points[0], axis=1)  # lengths of the parts
+        wanted = np.bincount(line, SAMPLES_AN_EDGE * speed / found.sizes, len(parts))
+        parts = np.maximum(parts, np.ceil(np.minimum(wanted, MOST_SAMPLES)).astype(np.int64))
+        points, uv, found = self._sampled(parts, chord)
         rows = np.flatnonzero(found.sizes < allowed(uv))
         if not len(rows):
             return None
@@ -153,15 +153,13 @@ class Rims:
         return SizeLimits(points[2][rows], found.sizes, slope, uv[rows], metric_root_3d=tensors)
 
     def _sampled(
-        self, pieces: np.ndarray, chord: float
+        self, parts: np.ndarray, chord: float
     ) -> tuple[list[np.ndarray], np.ndarray, RimSizes]:
-        """Points (n, 3) at start, end and middle of so many equal pieces of each line, the
+        """Points (n, 3) at start, end and middle of so many equal parts of each line, the
         parameters (n, 2) and the sizes of the middles."""
-        line = np.repeat(np.arange(len(pieces)), pieces)
-        place = np.arange(len(line)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+        line = np.repeat(np.arange(len(parts)), parts)
+        place = np.arange(len(line)) - np.repeat(np.cumsum(parts) - parts, parts)
         start, end = self.lines[line].transpose(1, 0, 2)
-        uv = [
-            start + ((place + t) / pieces[line])[:, None] * (end - start) for t in (0.0, 1.0, 0.5)
-        ]
+        uv = [start + ((place + t) / parts[line])[:, None] * (end - start) for t in (0.0, 1.0, 0.5)]
         points = [self.surface.evaluate(each, 0)[0] for each in uv]
         return points, uv[2], rim_sizes(self.surface, uv[2], end - start, chord)

@@ -3,9 +3,9 @@
 A unit triangle on the quadric z = (k1 x^2 + k2 y^2) / 2, with edges h1 and h2 along its
 directions, lies (k1 h1^2 + k2 h2^2) / 16 from it in the mean: linear interpolation of x^2 on an
 equilateral triangle of side h errs by h^2 / 8 in the mean. With sizes by a chord c this is a known
-share of c. So
+fraction of c. So
 
-    volume lost (c)  =  sum over the solid's curved faces of   integral of that share of c  dA
+    volume lost (c)  =  sum over the solid's curved faces of   integral of that part of c  dA
 
 less what concave places gain, and the largest c that keeps it within what was asked for is a chord
 of the faces of that solid, beside whatever else they are asked for. It is a rule of sizes, no
@@ -34,10 +34,10 @@ SAMPLES = 9
 """Points each way of a grid on a face."""
 
 AIM = 0.9
-"""Share of the error asked for that is used: triangles differ from unit ones."""
+"""Fraction of the error asked for that is used: triangles differ from unit ones."""
 
 CERTAIN = 0.3
-"""Losses and gains are taken to cancel but for this share of the larger."""
+"""Losses and gains are taken to cancel but for this fraction of the larger."""
 
 HALVINGS = 60
 """Steps of the bisection for the chord, from the diagonal down."""

@@ -92,7 +92,7 @@
 
   // ------------------------------------------------------------------ colours
 
-  function share(entry, value) {
+  function fraction(entry, value) {
     let [low, high] = entry.limits;
     if (entry.logarithmic) [low, high, value] = [low, high, Math.max(value, low)].map(Math.log);
     return Math.min(Math.max((value - low) / (high - low), 0), 1);
@@ -100,7 +100,7 @@
 
   function hue(entry, value) {
     const last = entry.map.length / 6 - 1;
-    const k = 6 * (entry.hues ? Math.round(value) : Math.round(share(entry, value) * last));
+    const k = 6 * (entry.hues ? Math.round(value) : Math.round(fraction(entry, value) * last));
     return [0, 2, 4].map((i) => parseInt(entry.map.slice(k + i, k + i + 2), 16));
   }
 
@@ -110,7 +110,7 @@
     const last = table.length / 3 - 1;
     for (let corner = 0; corner < flat.length; corner++) {
       const value = values[entry.perVertex ? flat[corner] : Math.floor(corner / (3 * parts))];
-      const k = 3 * (entry.hues ? Math.round(value) : Math.round(share(entry, value) * last));
+      const k = 3 * (entry.hues ? Math.round(value) : Math.round(fraction(entry, value) * last));
       shown[3 * corner] = table[k];
       shown[3 * corner + 1] = table[k + 1];
       shown[3 * corner + 2] = table[k + 2];
@@ -168,20 +168,20 @@
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
       defines: { CORNERS: 3 * parts },
       uniforms: {
-        shares: { value: new Float32Array(contents.shares) },
+        weights: { value: new Float32Array(contents.weights) },
         sides: { value: true }, circles: { value: false }, lit: { value: false },
         picked: { value: -1 }, hovered: { value: -1 },
       },
       vertexShader: `
         in vec3 colour;
         in vec3 circle0, circle1, circle2;  // squared metric length within this triangle
-        uniform vec3 shares[CORNERS];  // of the corners of a triangle
-        out vec3 tint, place, share;
+        uniform vec3 weights[CORNERS];  // of the corners of a triangle
+        out vec3 tint, place, weight;
         flat out vec3 around0, around1, around2;
         flat out int triangle;
         void main() {
           triangle = gl_VertexID / CORNERS;
-          share = shares[gl_VertexID % CORNERS];
+          weight = weights[gl_VertexID % CORNERS];
           around0 = circle0; around1 = circle1; around2 = circle2;
           tint = colour;
           vec4 seen = modelViewMatrix * vec4(position, 1.0);
@@ -189,7 +189,7 @@
           gl_Position = projectionMatrix * seen;
         }`,
       fragmentShader: `
-        in vec3 tint, place, share;
+        in vec3 tint, place, weight;
         flat in vec3 around0, around1, around2;
         flat in int triangle;
         uniform bool sides, circles, lit;
@@ -203,10 +203,10 @@
           vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
           float light = lit ? 0.58 + 0.42 * abs(normal.z) : 1.0;
           vec3 paint = tint;
-          vec3 step = fwidth(share);
+          vec3 step = fwidth(weight);
           if (circles) {
-            vec3 off = vec3(beyond(around0, share.y, share.z), beyond(around1, share.z, share.x),
-                            beyond(around2, share.x, share.y));
+            vec3 off = vec3(beyond(around0, weight.y, weight.z), beyond(around1, weight.z, weight.x),
+                            beyond(around2, weight.x, weight.y));
             vec3 width = max(fwidth(off), 1e-6);
             vec3 rim = 1.0 - smoothstep(0.3 * width, 1.3 * width, abs(off));
             float fade = 1.0 - smoothstep(0.06, 0.25, max(width.x, max(width.y, width.z)));
@@ -215,7 +215,7 @@
             paint = mix(paint, vec3(0.62, 0.24, 0.0), fade * max(rim.x, max(rim.y, rim.z)));
           }
           if (sides) {
-            vec3 near = smoothstep(0.2 * step, 1.1 * step, share);
+            vec3 near = smoothstep(0.2 * step, 1.1 * step, weight);
             float fade = 1.0 - smoothstep(0.10, 0.30, max(step.x, max(step.y, step.z)));
             float line = 1.0 - min(near.x, min(near.y, near.z));
             paint = mix(paint, vec3(0.08, 0.10, 0.12), (circles ? 0.3 : 0.6) * fade * line);
