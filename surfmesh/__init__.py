@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
-    from surfmesh.api import check, estimate, explain, intersect, load, mesh, show
+    from surfmesh.api import check, estimate, explain, intersect, mesh, show
     from surfmesh.cad.cadquery.from_cadquery import from_cadquery
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.circle_packing import CirclePacking, pack
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from surfmesh.geometry.formulas.parametric import ParametricSurface
     from surfmesh.geometry.functions.numeric import NumericSurface
     from surfmesh.geometry.planar.planar_domain import PlanarDomain
+    from surfmesh.loading import load
     from surfmesh.partitioned_mesh import PartitionedMesh, mesh_into_pieces
     from surfmesh.quality import Report
     from surfmesh.result.surface_mesh import SurfaceMesh
@@ -61,7 +62,7 @@ _HOMES = {
     "from_cadquery": "surfmesh.cad.cadquery.from_cadquery",
     "gallery": "surfmesh.geometry.files.surface_file",
     "intersect": "surfmesh.api",
-    "load": "surfmesh.api",
+    "load": "surfmesh.loading",
     "mesh": "surfmesh.api",
     "mesh_into_pieces": "surfmesh.partitioned_mesh",
     "pack": "surfmesh.circle_packing",

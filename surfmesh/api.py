@@ -1,4 +1,4 @@
-"""The verbs: ``load`` a surface or a CAD model, ``intersect`` several, ``mesh`` it, ``show`` it.
+"""The verbs: ``load`` what is to be meshed, ``intersect`` several, ``mesh`` it, ``check`` the mesh.
 
 What only one kind of surface needs is imported once it is there: the first mesh of a formula
 waits for no CAD.
@@ -7,30 +7,18 @@ waits for no CAD.
 from __future__ import annotations
 
 import logging
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import return_free_memory
-from surfmesh.cad.healing.joining import Joining
-from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
-from surfmesh.errors import (
-    CadError,
-    FileFormatError,
-    SizingError,
-    SurfaceError,
-    did_you_mean,
-    printable,
-    shown,
-)
-from surfmesh.geometry.files.surface_file import OF_SURFACES, gallery, load_surface_file
-from surfmesh.geometry.files.toml_entries import sets_key
+from surfmesh.errors import FileFormatError, SizingError, SurfaceError, printable, shown
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
+from surfmesh.loading import is_domain, mesh_of_file, model_or_surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.given_sizes import Sizes, sizes_by_name, sizes_for, sizes_of_order
 from surfmesh.sizing.options.sizing import Sizing
@@ -39,97 +27,12 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from surfmesh.cad.model.cad_model import CadModel
-    from surfmesh.geometry.planar.planar_domain import PlanarDomain
     from surfmesh.meshing.estimate.estimation import Estimate
     from surfmesh.meshing.explain.explanation import Explanation
     from surfmesh.meshing.progress import Progress
     from surfmesh.quality import Report
 
 logger = logging.getLogger(__name__)
-
-
-def load(
-    path: str | Path,
-    units: str | None = None,
-    *,
-    imprint: bool | float = False,
-    sew: float | None = None,
-    time_limit: float | None = None,
-    memory_limit: float | None = None,
-    isolate: bool = True,
-) -> Surface | CadModel:
-    """The surface or CAD model of a file, or the surface of the gallery by its name.
-
-    A ``.toml`` file holds formulas, a planar domain or surfaces that meet (which give a model as
-    ``intersect`` does), a ``.svg`` drawing a planar domain;
-    STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
-
-    imprint, sew: of a CAD model, lengths in its units. imprint=True: bodies that touch share
-    their faces, which are meshed once; a number is how near touches. sew=0.01: loose faces whose
-    edges lie as near are joined, and closed shells of them become solids.
-
-    time_limit, memory_limit: seconds of processor time and MB of memory that reading a CAD file
-    may take, inf for no limit. None: the environment variables SURFMESH_READ_SECONDS and
-    SURFMESH_READ_MEMORY, else 8 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
-
-    isolate: a CAD file is read in a process of its own, which is ended at those limits. False reads
-    a file that you trust in this one, sooner where OCP is loaded already; no limit holds then, and
-    a file that makes OCP crash ends your program.
-
-    Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
-    another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
-    """
-    try:
-        place = Path(path)
-    except TypeError:
-        raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
-    joins = bool(Joining.of(imprint, sew))
-    if place.suffix.lower() in SUFFIXES:
-        with begun_reading(
-            place, units=units, time_limit=time_limit, memory_limit=memory_limit, imprint=imprint,
-            sew=sew, isolate=isolate,
-        ) as reading:  # fmt: skip
-            import surfmesh.meshing.model_mesh  # noqa: F401  needed next, while a child reads
-
-            return reading.model()
-    if joins:
-        raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
-    if units is not None:
-        raise CadError(
-            f"units are those of a CAD file; {place.name} is none, its lengths have none"
-        )
-    if place.suffix == "" and not place.exists():
-        place = _of_gallery(str(path))
-    if place.suffix.lower() not in OF_SURFACES:
-        raise FileFormatError(_not_to_load(place))
-    if place.suffix.lower() == ".toml" and sets_key(place, "intersect"):
-        from surfmesh.intersection.meeting_file import load_meeting_file
-
-        return load_meeting_file(place)
-    return load_surface_file(place)
-
-
-def _not_to_load(place: Path) -> str:
-    from surfmesh.io import FORMATS
-
-    if place.suffix.lower() in FORMATS:
-        return f"{place}: holds a mesh, not a surface: check and surfmesh.io.read read it"
-    known = " ".join((*SUFFIXES, *OF_SURFACES))
-    found = f"extension '{place.suffix}' is not known" if place.suffix else "has no extension"
-    return f"{place}: {found}; surfaces and CAD models come from {known}, and from the gallery"
-
-
-def _of_gallery(name: str) -> Path:
-    """The file of a gallery surface, or of ready-made surfaces that meet."""
-    known = gallery()
-    if name not in known:
-        from surfmesh.intersection.meeting_file import meeting_gallery
-
-        known = known | meeting_gallery()
-    if name not in known:
-        hint = did_you_mean(name, known) or "; sm.gallery() lists what there is"
-        raise FileFormatError(f"no file and no gallery surface called {name!r}{hint}")
-    return known[name]
 
 
 def mesh(
@@ -147,21 +50,32 @@ def mesh(
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
-    surface: one of these, or the path of a file or a name of the gallery, for ``load``. sizing:
-    what is wanted; a number is a uniform edge length; None takes the defaults of the surface's
-    formula file, or sensible ones. Options of ``Sizing`` may be given by name instead: ``mesh(part,
-    chord=0.1)``, ``mesh(part, triangles=50_000)``. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, fraction done); when it returns False
-    the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and listed
-    in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed, those below
-    ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that are finer than
-    the sizes are thinned; topology is kept. jobs: how many threads mesh, faces of a CAD model at
-    once or within one; by default as many as this process may use processors. The mesh is the same
-    with any number of them. executor: meshes faces instead, in other processes or on other
-    machines: any of ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
-    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``);
-    ``chord`` is then that of the curved triangles, of which far fewer are needed. None:
-    ``Sizing.order``, 1 by default.
+    surface: one of these, or the path of a file or a name of the gallery, for ``load``.
+
+    sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
+    surface's formula file, or sensible ones. Options of ``Sizing`` may be given by name instead:
+    ``mesh(part, chord=0.1)``, ``mesh(part, triangles=50_000)``.
+
+    optimise: False gives the raw packing with its boundary, as in the paper.
+
+    progress: called with (stage, fraction done); when it returns False the work stops.
+
+    strict: False leaves out faces of a CAD model that cannot be meshed, and lists them in the
+    mesh's ``warnings``.
+
+    simplify: True collapses tiny edges of a CAD model, those below ``min_size`` or a
+    two-thousandth of the diagonal, and thins lines of a planar domain that are finer than the
+    sizes; topology is kept.
+
+    jobs: how many threads mesh, faces of a CAD model at once or within one; by default as many as
+    this process may use processors. The mesh is the same with any number of them.
+
+    executor: meshes faces instead, in other processes or on other machines: any of
+    ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
+
+    order: 2 puts nodes amid the edges too, on the true curves and surfaces
+    (``mesh.mid_points``); ``chord`` is then that of the curved triangles, of which far fewer are
+    needed. None: ``Sizing.order``, 1 by default.
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.
@@ -170,7 +84,7 @@ def mesh(
     ``Cancelled`` when ``progress`` said so.
     """
     _require_threads(jobs)
-    model = _model_or_surface(surface)
+    model = model_or_surface(surface)
     asked, order = sizes_of_order(sizes_by_name(sizing, sizes, beside=_OF_MESH), order)
     wanted = sizes_for(model, asked)
 
@@ -217,7 +131,7 @@ def _mesh_once(
 
         workers = FaceWorkers(threads, executor)
         return mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
-    if _is_domain(model):
+    if is_domain(model):
         from surfmesh.meshing.planar_mesh import mesh_planar
 
         with allowed_threads(threads):
@@ -298,7 +212,7 @@ def intersect(
     from surfmesh.intersection.intersect import intersected
 
     return intersected(
-        [_model_or_surface(surface) for surface in surfaces], keep, coincident=coincident
+        [model_or_surface(surface) for surface in surfaces], keep, coincident=coincident
     )
 
 
@@ -314,13 +228,13 @@ def estimate(
     where sizes are coarse for the curvature or faces thin. Raises what ``mesh`` raises for sizes
     that cannot be met, but for their limit.
     """
-    model = _model_or_surface(surface)
+    model = model_or_surface(surface)
     sizing = _with_sizes(model, sizes_by_name(sizing, sizes))
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import estimate_model
 
         return estimate_model(model, sizing)
-    if _is_domain(model):
+    if is_domain(model):
         from surfmesh.meshing.planar_mesh import estimate_planar
 
         return estimate_planar(model, Sizing.of(sizing))
@@ -339,7 +253,7 @@ def explain(
     The point is moved to the nearest one of the surface or model. ``print`` it. Raises what
     ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
     """
-    model = _model_or_surface(surface)
+    model = model_or_surface(surface)
     sizing = _with_sizes(model, sizing)
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import explain_size
@@ -376,15 +290,6 @@ def check(
     return quality.check(mesh, second_opinion=second_opinion, prove=prove)
 
 
-def mesh_of_file(path: str | Path) -> SurfaceMesh:
-    """What ``surfmesh.io.read`` gives; ``FileFormatError`` says what to do with what is no mesh."""
-    from surfmesh.io import read
-
-    if Path(path).suffix.lower() in (*SUFFIXES, *OF_SURFACES) or str(path) in gallery():
-        raise FileFormatError(f"{path} is no mesh, but what one is made of: mesh it first")
-    return read(path)
-
-
 def _place(point: Sequence[float]) -> NDArray[np.float64]:
     """The point as an array (3,)."""
     try:
@@ -396,30 +301,6 @@ def _place(point: Sequence[float]) -> NDArray[np.float64]:
             f"a point is three finite numbers of at most {RANGE.square:g}, not {shown(point)}"
         )
     return place
-
-
-def _model_or_surface(thing: Any) -> Surface | CadModel:
-    """What is to be meshed; of a path or a name what ``load`` gives, of CadQuery the model."""
-    if isinstance(thing, (str, Path)):
-        return load(thing)
-    # a class that nobody has imported has no instances
-    home = sys.modules.get("surfmesh.cad.model.cad_model")
-    if isinstance(thing, Surface) or (home is not None and isinstance(thing, home.CadModel)):
-        return thing
-    if not _is_cad(thing):
-        raise SurfaceError(
-            f"cannot mesh a {type(thing).__name__}: a surface, a CAD model, a CadQuery object or "
-            "the path of a file is needed"
-        )
-    from surfmesh.cad.cadquery.from_cadquery import from_cadquery
-
-    return from_cadquery(thing)
-
-
-def _is_domain(thing: Any) -> TypeGuard[PlanarDomain]:
-    """Without importing what only domains need."""
-    home = sys.modules.get("surfmesh.geometry.planar.planar_domain")
-    return home is not None and isinstance(thing, home.PlanarDomain)
 
 
 def show(
@@ -446,7 +327,7 @@ def show(
         drawn: dict[str, Any] = {"by": by or "alpha"}
     else:  # the raw packing carries the field to where it changes
         shown = mesh(thing, sizing, optimise=False, strict=False)
-        flat = _is_domain(thing)
+        flat = is_domain(thing)
         first = "curvature" if sizing is None and not flat else "size"
         name = getattr(thing, "name", "") or name_of(shown)
         what = "curvature" if first == "curvature" else "size field"
@@ -466,10 +347,3 @@ def _logged(made: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
     for warning in made.warnings:
         logger.warning("%s: %s", surface.name, warning)
     return made
-
-
-def _is_cad(thing: Any) -> bool:
-    """Is it an object of CadQuery, build123d or OCP, or does it wrap one?"""
-    if type(thing).__module__.split(".")[0] in ("cadquery", "build123d", "OCP"):
-        return "OCP" in sys.modules
-    return hasattr(thing, "wrapped")

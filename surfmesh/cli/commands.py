@@ -137,7 +137,7 @@ def _mesh_in_pieces(
 
 def check(options: Namespace) -> bool:
     """Report on a mesh file, against its surface when that is named."""
-    from surfmesh.api import mesh_of_file
+    from surfmesh.loading import mesh_of_file
 
     if options.surface:
         with surface_begun(options.surface, options) as surface_wanted:

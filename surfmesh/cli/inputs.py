@@ -132,17 +132,17 @@ def surface_of(options: Namespace) -> Surface | CadModel:
 
 def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     """A file, or else a surface of the gallery; ``options.reading``: how a CAD file is read."""
-    from surfmesh import api
     from surfmesh.geometry.files.surface_file import gallery as surfaces
     from surfmesh.intersection.meeting_file import meeting_gallery
+    from surfmesh.loading import load
 
     if Path(name).suffix.lower() == ".py" and Path(name).is_file():
         return _of_program(Path(name), options)
     if Path(name).is_file():
-        return api.load(name, **options.reading)
+        return load(name, **options.reading)
     known = surfaces() | meeting_gallery()
     if name in known:
-        return api.load(known[name], **options.reading)
+        return load(known[name], **options.reading)
     if Path(name).suffix:
         raise SurfaceError(f"{name}: no such file")
     hint = did_you_mean(name, known) or "; 'surfmesh gallery' lists what there is"

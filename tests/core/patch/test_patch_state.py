@@ -7,8 +7,8 @@ from stages import patch_state, recovered
 from surfmesh._core import patch as core
 from surfmesh._core.surfaces import CallbackSurface
 from surfmesh._core.triangulation import Triangulation
-from surfmesh.api import load
 from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.loading import load
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.sizing.field.size_field import size_field

@@ -15,10 +15,10 @@ from surfmesh._core.optimisation import (
     triangle_shape,
 )
 from surfmesh._core.patch import LONGEST, SHORTEST
-from surfmesh.api import load
 from surfmesh.api import mesh as mesh_of
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.loading import load
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
 from surfmesh.meshing.patch.packing import packed
 from surfmesh.quality.measures.shape import shapes as alphas

@@ -5,10 +5,10 @@ import pytest
 import shapely
 
 import surfmesh as sm
-from surfmesh.api import load
 from surfmesh.errors import DomainError, FileFormatError
 from surfmesh.geometry.files.domain_file import load_domain_file
 from surfmesh.geometry.planar.domain_faces import inside_faces
+from surfmesh.loading import load
 from surfmesh.sizing.options.distance_size import DistanceSize, default_options
 
 GOOD = """

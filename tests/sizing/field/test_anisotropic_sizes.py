@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from naive.metric import metric_root_3d
 
-from surfmesh.api import load
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.loading import load
 from surfmesh.sizing.field.boundary_field import has_boundary_field
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.field.size_law import SizeLaw

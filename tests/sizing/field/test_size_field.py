@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.api import load
 from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.loading import load
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import chord_size, lattice_chord_size

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from surfmesh.api import load
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.loading import load
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
