@@ -35,6 +35,7 @@ from surfmesh.quality.measures.deviation import deviation
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.given_sizes import Sizes
 
 
 class PieceSums(NamedTuple):
@@ -97,7 +98,7 @@ class PartitionedMesh:
 
 
 def mesh_into_pieces(
-    path: str | Path, model: CadModel, sizing: Any, executor: Executor, *, optimise: bool = True,
+    path: str | Path, model: CadModel, sizing: Sizes, executor: Executor, *, optimise: bool = True,
     progress: Progress | None = None, strict: bool = True,
 ) -> PartitionedMesh:  # fmt: skip
     """Mesh a model into a .pvtu file in a folder that the workers of ``executor`` see too.

@@ -37,11 +37,11 @@ from surfmesh.errors import FileFormatError, SurfmeshError, printable
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from surfmesh.api import Sizes
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.geometry.surface import Surface
     from surfmesh.meshing.estimate.estimation import Estimate
     from surfmesh.meshing.explain.explanation import Explanation
+    from surfmesh.sizing.options.given_sizes import Sizes
 
 
 def mesh(options: Namespace) -> bool:
@@ -78,7 +78,7 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
     from surfmesh.quality import check as checked
 
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
-        if executor is not None and in_pieces(options, surface):
+        if executor is not None and in_pieces(surface, options):
             return _mesh_in_pieces(surface, sizing, options, executor, progress)
         result = api.mesh(
             surface,
@@ -118,7 +118,7 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
 
 
 def _mesh_in_pieces(
-    model: Any, sizing: Any, options: Namespace, executor: Executor, progress: ProgressBar
+    model: CadModel, sizing: Sizes, options: Namespace, executor: Executor, progress: ProgressBar
 ) -> bool:
     """Mesh a CAD model into a .pvtu file by the workers; no process holds the whole."""
     from surfmesh.partitioned_mesh import mesh_into_pieces

@@ -7,13 +7,14 @@ from argparse import Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeGuard
 
 from surfmesh.cli.inputs import called
 from surfmesh.cli.option_groups import BY_DEFAULT
 from surfmesh.errors import FileFormatError, MeshingError
 
 if TYPE_CHECKING:
+    from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.quality.report import Report
     from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -70,7 +71,7 @@ def require_outputs(options: Namespace) -> None:
 _WHOLE = ("picture", "report", "manifest", "second_opinion", "simplify", "flip")
 
 
-def in_pieces(options: Namespace, surface: object) -> bool:
+def in_pieces(surface: object, options: Namespace) -> TypeGuard[CadModel]:
     """Whether a CAD model goes into a .pvtu file by workers, so that none holds the whole.
 
     Raises ``MeshingError`` for an option that needs the whole mesh.

@@ -17,7 +17,7 @@ from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import are_known
-from surfmesh.intersection.complex import Complex, compacted, with_areas
+from surfmesh.intersection.complex import Complex, Patch, compacted, with_areas
 from surfmesh.intersection.curve_fitting import NEAR
 from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
@@ -150,7 +150,7 @@ def _kind(surface: FaceSurface) -> str:
 
 
 def _tags(
-    keeping: Keeping, patches: Sequence[Any], names: Sequence[str], models: Sequence[CadModel]
+    keeping: Keeping, patches: Sequence[Patch], names: Sequence[str], models: Sequence[CadModel]
 ) -> tuple[CadTag, ...]:
     """The faces of each input, and those on each side of another: "wing", "wing+body"."""
     faces: dict[str, list[int]] = {name: [] for name in names}

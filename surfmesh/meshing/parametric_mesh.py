@@ -17,6 +17,7 @@ from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.kinks import kink_lines
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
@@ -245,7 +246,7 @@ class _Rounds:
         return requests_for_curved(mesh, np.array([chord]), self.sizing.gradient, known).get(0)
 
     def _boundary(self, field: SizeField) -> BoundaryLoops:
-        if not self.kinks:
+        if not self.kinks or not isinstance(self.surface, ParametricSurface):
             return boundary_loops(self.surface, self.sides, field)
         loops = boundary_loops(self.surface, self.sides, field, sides_met(self.surface, self.kinks))
         return with_kinks(loops, self.surface, self.kinks, field)

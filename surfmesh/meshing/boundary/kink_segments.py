@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from surfmesh.geometry.formulas.kink_tracing import Guides, KinkLine
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.sizing.field.size_field import SizeField
@@ -36,7 +36,7 @@ def sides_met(surface: Surface, lines: list[KinkLine]) -> np.ndarray:
 
 
 def with_kinks(
-    loops: BoundaryLoops, surface: Any, lines: list[KinkLine], field: SizeField
+    loops: BoundaryLoops, surface: ParametricSurface, lines: list[KinkLine], field: SizeField
 ) -> BoundaryLoops:
     """The boundary, with segments along kink lines that begin and end at nodes of it."""
     guides = Guides(surface)
@@ -70,7 +70,7 @@ def with_kinks(
     )  # fmt: skip
 
 
-def cut_kink(surface: Any, guides: Guides, line: KinkLine, field: SizeField) -> np.ndarray:
+def cut_kink(surface: Surface, guides: Guides, line: KinkLine, field: SizeField) -> np.ndarray:
     """Points (n + 1, 2) of a line at equal metric lengths near 1, on the kink, ends included."""
     fine, length = _metric(line, field)
     segments = max(CLOSED_SEGMENTS if line.closed else 1, round(length[-1]))
@@ -110,7 +110,7 @@ def _spread(
 
 
 def _sag(
-    surface: Any, guides: Guides, line: KinkLine, fine: np.ndarray, length: np.ndarray,
+    surface: Surface, guides: Guides, line: KinkLine, fine: np.ndarray, length: np.ndarray,
     points: np.ndarray,
 ) -> float:  # fmt: skip
     """Largest distance of the kink from the chords of its segments, at their middles."""
