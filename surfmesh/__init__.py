@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from surfmesh.result.surface_mesh import SurfaceMesh
     from surfmesh.sizing.options.distance_size import DistanceSize
     from surfmesh.sizing.options.radius_laws import TensorField, UniformRadius
+    from surfmesh.sizing.options.size_cloud import SizeCloud
     from surfmesh.sizing.options.sizing import Sizing
-    from surfmesh.sizing.options.sources import InBall, InBox, Near, SizeCloud
+    from surfmesh.sizing.options.sources import InBall, InBox, Near
 
     __version__: str
 
@@ -51,7 +52,7 @@ _HOMES = {
     "PartitionedMesh": "surfmesh.partitioned_mesh",
     "PlanarDomain": "surfmesh.geometry.planar.planar_domain",
     "Report": "surfmesh.quality",
-    "SizeCloud": "surfmesh.sizing.options.sources",
+    "SizeCloud": "surfmesh.sizing.options.size_cloud",
     "Sizing": "surfmesh.sizing.options.sizing",
     "SurfaceMesh": "surfmesh.result.surface_mesh",
     "TensorField": "surfmesh.sizing.options.radius_laws",

@@ -22,7 +22,7 @@ from surfmesh.sizing.options.radius_laws import (
     TensorField,
     require_computable,
 )
-from surfmesh.sizing.options.sources import as_numbers
+from surfmesh.sizing.options.size_laws import as_numbers
 
 EVERYWHERE = 1e150
 """Half the width of the box when none is given."""

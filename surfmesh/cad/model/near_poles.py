@@ -1,4 +1,4 @@
-"""Images that end at a pole which is only nearly a point: there they keep their direction.
+"""P-curves that end at a pole which is only nearly a point: there they keep their direction.
 
 v |   \\_____/            A row of control points a hair apart is a side of the face in (u, v)
   |  .'     '.           and a point for its edges. The foot of an edge's end lies anywhere
@@ -44,8 +44,8 @@ def pcurves_at_near_poles(
             uv = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
             (u0, v0), (u1, v1) = uv.min(axis=0).tolist(), uv.max(axis=0).tolist()
             surface = face.surface.with_domain(((u0, u1), (v0, v1)))
-            piece = replace(face, surface=surface, loops=tuple(loops))
-            faces[number] = replace(piece, area=face_area(piece))
+            changed_face = replace(face, surface=surface, loops=tuple(loops))
+            faces[number] = replace(changed_face, area=face_area(changed_face))
             changed.append(str(number))
     if not changed:
         return []
@@ -65,7 +65,6 @@ def _straightened(
         return False
     pole = vertices[edges[coedges[at].edge].start].point
     (u0, u1), (v0, v1) = face.surface.domain
-    width = np.array([u1 - u0, v1 - v0])
     box = np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]])
     (corners,) = face.surface.evaluate(box, 0)
     size = diagonal(corners)
@@ -75,37 +74,49 @@ def _straightened(
         return False
     ends = []
     for place, last in ((before, True), (after, False)):
-        fraction = np.linspace(0.0, 1.0, SAMPLES)
-        coedge = coedges[place]
-        edge = edges[coedge.edge]
-        points = edge.evaluate(fraction, 0)[0]
-        uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
-        at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
-        near = np.linalg.norm(points - pole, axis=1) < ZONE * extent
-        zone = np.flatnonzero(near)
-        edge_of_zone = zone.min() if at_end else zone.max()
-        if near.all():
+        end = _end_at_pole(face, coedges[place], edges[coedges[place].edge], pole, extent, last)
+        if end is None:
             return False
-        swing = np.ptp(uv[zone], axis=0) / width
-        across = int(np.argmax(swing))
-        if swing[across] < SWING:
-            ends.append((place, coedge, coedge.walk(np.array([1.0 if last else 0.0]))[0], False))
-            continue
-        uv[zone, across] = uv[edge_of_zone, across]
-        parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
-        order = slice(None) if parameters[-1] > parameters[0] else slice(None, None, -1)
-        better = replace(coedge, pcurve=_polyline(parameters[order], uv[order]))
-        ends.append((place, better, better.walk(np.array([1.0 if last else 0.0]))[0], True))
+        ends.append((place, *end))
     if not any(swings for *_, swings in ends):
         return False
     for place, coedge, _, _ in ends:
         coedges[place] = coedge
-    first, last = ends[0][2], ends[1][2]
-    step = last - first
+    first = ends[0][2]
+    step = ends[1][2] - first
     length = norm(step)
     line = Line(first, step / max(length, np.finfo(float).tiny))
     coedges[at] = replace(coedges[at], reversed=False, pcurve=line, p0=0.0, p1=length)
     return True
+
+
+def _end_at_pole(
+    face: CadFace, coedge: CadCoedge, edge: CadEdge, pole: np.ndarray, extent: float, last: bool
+) -> tuple[CadCoedge, np.ndarray, bool] | None:
+    """A coedge that ends at a pole whose side is ``extent`` long, straight in the zone around it.
+
+    last: its walk ends there, and does not begin. Returns the coedge, as it was if it does not
+    swing there; its end (2,) in (u, v); and whether it swings. None: all of it is in the zone.
+    """
+    (u0, u1), (v0, v1) = face.surface.domain
+    at_pole = np.array([1.0 if last else 0.0])
+    fraction = np.linspace(0.0, 1.0, SAMPLES)
+    points = edge.evaluate(fraction, 0)[0]
+    uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
+    at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
+    near = np.linalg.norm(points - pole, axis=1) < ZONE * extent
+    if near.all():
+        return None
+    zone = np.flatnonzero(near)
+    swing = np.ptp(uv[zone], axis=0) / np.array([u1 - u0, v1 - v0])
+    across = int(np.argmax(swing))
+    if swing[across] < SWING:
+        return coedge, coedge.walk(at_pole)[0], False
+    uv[zone, across] = uv[zone.min() if at_end else zone.max(), across]
+    parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
+    order = slice(None) if parameters[-1] > parameters[0] else slice(None, None, -1)
+    better = replace(coedge, pcurve=_polyline(parameters[order], uv[order]))
+    return better, better.walk(at_pole)[0], True
 
 
 def _polyline(parameters: np.ndarray, uv: np.ndarray) -> BSplineCurve:

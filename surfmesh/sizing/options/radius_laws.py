@@ -8,7 +8,7 @@ import numpy as np
 from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.sizing.options.positive import positive
-from surfmesh.sizing.options.sources import as_numbers
+from surfmesh.sizing.options.size_laws import as_numbers
 
 
 def require_computable(name: str, length: float) -> None:

@@ -10,7 +10,8 @@ import numpy as np
 from surfmesh.errors import SizingError, did_you_mean, shown
 from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
-from surfmesh.sizing.options.sources import checked_sizes, source_sizes
+from surfmesh.sizing.options.size_laws import checked_sizes
+from surfmesh.sizing.options.sources import source_sizes
 
 MOST_STRETCHED = 1e6
 """Largest ratio of two sizes: beyond it areas are round-off."""

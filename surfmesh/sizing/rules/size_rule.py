@@ -7,8 +7,8 @@ import numpy as np
 
 from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.model_sizing import LeastOf
+from surfmesh.sizing.options.size_laws import checked_sizes
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
-from surfmesh.sizing.options.sources import checked_sizes
 from surfmesh.sizing.rules.rule import PlaceRule
 
 LONGEST_TEXT = 80

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.sizing.options.size_laws import checked_sizes
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
-from surfmesh.sizing.options.sources import checked_sizes
 from surfmesh.sizing.rules.rule import PlaceRule
 from surfmesh.sizing.rules.size_rule import called
 
