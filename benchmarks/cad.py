@@ -13,7 +13,6 @@ import single_thread  # noqa: F401  (before numpy)
 
 # isort: split
 import argparse
-import json
 import os
 import platform
 import sys
@@ -21,10 +20,10 @@ from collections.abc import Iterator
 from fnmatch import fnmatch
 from pathlib import Path
 from time import perf_counter
-from typing import TextIO
 
 import cad_meshers
 import cad_summary
+import json_lines
 from cad_parts import PARTS
 from tables import console, heading
 
@@ -36,24 +35,14 @@ MESHERS = ("ours", "gmsh", "ocp")
 def main() -> int:
     options = _options()
     if options.summary:
-        records = [json.loads(line) for line in options.summary.read_text().splitlines() if line]
-        return cad_summary.show(records)
+        return cad_summary.show(json_lines.read(options.summary))
     places = _places(options)
     if not places:
         console.print("no CAD file or part has such a name")
         return 2
     heading(f"{len(places)} models, {platform.machine()}, load {os.getloadavg()[0]:.1f}")
-    records = []
-    out = open(options.json, "w", encoding="utf-8") if options.json else None
-    try:
-        for place in places:
-            for record in _measured(place, options):
-                records.append(record)
-                _keep(record, out)
-    finally:
-        if out:
-            out.close()
-    return cad_summary.show(records)
+    records = (_said(record) for place in places for record in _measured(place, options))
+    return cad_summary.show(json_lines.kept(records, options.json))
 
 
 def _options() -> argparse.Namespace:
@@ -112,10 +101,8 @@ def _run(mesher: str, place: str, options: argparse.Namespace, asked: dict) -> d
     return {"file": Path(place).name, "mesher": mesher, **found, "seconds_process": seconds}
 
 
-def _keep(record: dict, out: TextIO | None) -> None:
-    if out:
-        out.write(json.dumps(record) + "\n")
-        out.flush()
+def _said(record: dict) -> dict:
+    """The record itself, after a line about it."""
     said = record.get("error") or ("left out" if record.get("left_out") else "")
     if not said:
         said = f"{record.get('triangles', '-')} triangles"
@@ -123,6 +110,7 @@ def _keep(record: dict, out: TextIO | None) -> None:
         f"{record['file']} {record['mesher']}: {said}, {record['seconds_process']:.1f} s",
         markup=False, highlight=False,
     )  # fmt: skip
+    return record
 
 
 if __name__ == "__main__":

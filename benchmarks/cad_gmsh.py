@@ -4,6 +4,7 @@ from collections.abc import Callable
 from time import perf_counter
 
 import gmsh
+import gmsh_session
 import numpy as np
 from cad_measures import (
     clocks,
@@ -16,20 +17,13 @@ from cad_measures import (
 
 from surfmesh.quality.measures.shape import shapes
 
-FRONTAL_DELAUNAY = 6
 ATTEMPTS = 3
 NEAR = 1.15  # ratio of the numbers of triangles that is good enough
 FIRST_RADIUS = 0.05  # of the diagonal: the elements a circle of the first attempt fit this one
 FEWEST, MOST = 4.0, 200.0  # elements a circle
 SAMPLED = 1000  # triangles whose distance from the surface is looked at
 SAMPLE_SECONDS = 15.0
-OPTIONS = {
-    "General.Terminal": 0,
-    "General.NumThreads": 1,
-    "Mesh.Algorithm": FRONTAL_DELAUNAY,
-    "Mesh.MeshSizeFromPoints": 0,
-    "Mesh.MeshSizeExtendFromBoundary": 1,
-}
+OPTIONS = {"Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeExtendFromBoundary": 1}
 
 
 def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
@@ -66,9 +60,7 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
 
 def read(file: str, max_size: float) -> None:
     """Have ``file`` in gmsh, with our options."""
-    gmsh.initialize(interruptible=False)
-    for option, value in OPTIONS.items():
-        gmsh.option.setNumber(option, value)
+    gmsh_session.started(OPTIONS)
     gmsh.logger.start()
     try:
         gmsh.model.occ.importShapes(file)

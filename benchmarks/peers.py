@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 
 import child_process
+import gmsh_session
 import numpy as np
 
 import surfmesh as sm
@@ -25,7 +26,6 @@ from surfmesh.sizing.field.size_field import SizeField
 
 SPLINE_GRID = 160  # points each way that the spline interpolates
 GUESS_GRID = 400  # points each way from which nearest points are sought
-FRONTAL_DELAUNAY = 6
 
 
 def peer(mesher: str, name: str, sizing: dict, expected: int, timeout: float) -> dict:
@@ -155,17 +155,7 @@ def _as_gmsh_writes(formula: str, parameters: dict) -> str:
 def _by_gmsh(geometry: Callable, size: WantedSize) -> Triangles:
     import gmsh
 
-    gmsh.initialize(interruptible=False)
-    options = {
-        "General.Terminal": 0,
-        "General.NumThreads": 1,
-        "Mesh.MeshSizeExtendFromBoundary": 0,
-        "Mesh.MeshSizeFromPoints": 0,
-        "Mesh.MeshSizeFromCurvature": 0,
-        "Mesh.Algorithm": FRONTAL_DELAUNAY,
-    }
-    for option, value in options.items():
-        gmsh.option.setNumber(option, value)
+    gmsh_session.started()
     face = geometry(gmsh)
     gmsh.model.mesh.setSizeCallback(size)
     start = time.process_time()

@@ -19,6 +19,7 @@ import sys
 import time
 
 import child_process
+import gmsh_session
 import numpy as np
 
 import surfmesh as sm
@@ -35,7 +36,6 @@ REFINEMENTS = 30  # at most
 SIDES = 32  # of the round hole
 LOOSENED = 1.6  # largest over mean area of Triangle's triangles, as measured at 10 and 100 thousand
 EQUILATERAL = np.sqrt(3.0) / 4.0  # area of the triangle of side 1
-FRONTAL_DELAUNAY = 6
 
 Triangles = tuple[np.ndarray, np.ndarray, float]
 """Points (n, 2), triangles (m, 3) and the seconds they took."""
@@ -108,17 +108,7 @@ def gmsh(plate: PlanarDomain, law: str, scale: float) -> Triangles:
     import gmsh
 
     sizes = size_law(plate, law, scale)
-    gmsh.initialize(interruptible=False)
-    options = {
-        "General.Terminal": 0,
-        "General.NumThreads": 1,
-        "Mesh.MeshSizeExtendFromBoundary": 0,
-        "Mesh.MeshSizeFromPoints": 0,
-        "Mesh.MeshSizeFromCurvature": 0,
-        "Mesh.Algorithm": FRONTAL_DELAUNAY,
-    }
-    for option, value in options.items():
-        gmsh.option.setNumber(option, value)
+    gmsh_session.started()
     geo = gmsh.model.geo
     loops = []
     for loop in (*plate.outer, *plate.holes):

@@ -20,6 +20,7 @@ import argparse
 import time
 from collections.abc import Callable
 
+import gmsh_session
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,7 +37,6 @@ PLACES = np.array(
 ) / float(_GRID)  # fmt: skip
 HALVINGS = 12  # of the interval of gmsh's sizes
 STEPS = 12  # of the search for the closest point
-FRONTAL_DELAUNAY = 6
 
 
 def off_sphere(points: NDArray) -> NDArray:
@@ -146,13 +146,7 @@ def _elements_of_gmsh(
 ) -> Callable[[float], NDArray]:
     def elements(size: float) -> NDArray:
         """(m, 6, 3) nodes in our order, which is gmsh's."""
-        gmsh.initialize(interruptible=False)
-        wanted = {
-            "General.Terminal": 0, "General.NumThreads": 1, "Mesh.Algorithm": FRONTAL_DELAUNAY,
-            **options(size),
-        }  # fmt: skip
-        for option, value in wanted.items():
-            gmsh.option.setNumber(option, value)
+        gmsh_session.started(options(size))
         if name == "sphere":
             gmsh.model.occ.addSphere(0, 0, 0, 1)
         else:

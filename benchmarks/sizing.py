@@ -16,7 +16,6 @@ import single_thread  # noqa: F401  (before numpy)
 
 # isort: split
 import argparse
-import json
 import os
 import platform
 import sys
@@ -25,6 +24,7 @@ from collections.abc import Iterator
 from fnmatch import fnmatch
 from pathlib import Path
 
+import json_lines
 import sizing_meshers
 import sizing_summary
 from sizing_meshers import FORMULA, SHAPE
@@ -45,26 +45,14 @@ QUICK = [
 def main() -> int:
     options = _options()
     if options.summary:
-        rows = [json.loads(line) for line in options.summary.read_text().splitlines() if line]
-        return sizing_summary.show(rows)
+        return sizing_summary.show(json_lines.read(options.summary))
     places = _places(options)
     if not places:
         console.print("no surface or CAD file has such a name")
         return 2
     heading(f"{len(places)} inputs, {platform.machine()}, load {os.getloadavg()[0]:.1f}")
-    rows = []
-    out = open(options.json, "w", encoding="utf-8") if options.json else None
-    try:
-        for place in places:
-            for row in _measured(place, options):
-                rows.append(row)
-                if out:
-                    out.write(json.dumps(row) + "\n")
-                    out.flush()
-    finally:
-        if out:
-            out.close()
-    return sizing_summary.show(rows)
+    rows = (row for place in places for row in _measured(place, options))
+    return sizing_summary.show(json_lines.kept(rows, options.json))
 
 
 def _places(options: argparse.Namespace) -> list[str]:

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from typing import Any
 
 import child_process
+import gmsh_session
 import numpy as np
 import psutil
 
@@ -24,7 +25,6 @@ PLANE_GROWTH, SMALLEST_PART = 1.1, 0.2  # of the graded plane: largest over smal
 EQUILATERAL = np.sqrt(3.0) / 4.0  # area of the triangle of side 1
 REFINEMENTS = 30  # of Triangle, at most
 LOOSENED = 1.6  # Triangle takes areas as upper bounds: largest over mean, as measured
-FRONTAL_DELAUNAY = 6
 Mesh = tuple[np.ndarray, np.ndarray]
 """Points (n, 3) and triangles (m, 3)."""
 
@@ -74,7 +74,7 @@ def cad_surfmesh(request: dict) -> dict:
 def cad_gmsh(request: dict) -> dict:
     import gmsh
 
-    started(gmsh)
+    gmsh_session.started()
     gmsh.model.occ.importShapes(request["file"])
     gmsh.model.occ.synchronize()
 
@@ -111,17 +111,6 @@ def as_many(work: Callable[[float], Mesh], request: dict) -> float:
     for _ in range(2):
         size *= math.sqrt(len(work(size)[1]) / request["wanted"])
     return size
-
-
-def started(gmsh) -> None:
-    gmsh.initialize(interruptible=False)
-    options = {
-        "General.Terminal": 0, "General.NumThreads": 1, "Mesh.Algorithm": FRONTAL_DELAUNAY,
-        "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
-        "Mesh.MeshSizeExtendFromBoundary": 0,
-    }  # fmt: skip
-    for option, value in options.items():
-        gmsh.option.setNumber(option, value)
 
 
 def generated(gmsh) -> Mesh:
@@ -179,7 +168,7 @@ def plane_gmsh(request: dict) -> dict:
     """The sizes as one of gmsh's own formulas: nothing is asked of Python."""
     import gmsh
 
-    started(gmsh)
+    gmsh_session.started()
     gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
     gmsh.model.occ.synchronize()
     slope = request["size"] * (1.0 / SMALLEST_PART - 1.0) / np.sqrt(0.5)

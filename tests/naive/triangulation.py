@@ -1,11 +1,12 @@
 """Invariants of triangulations and of the front, each the first that is broken, in words."""
 
 from collections import Counter
+from fractions import Fraction
 
 import numpy as np
 from scipy.spatial import Delaunay
 
-from naive.exact import first_crossing, orient_signs
+from naive.exact import first_crossing, orient_signs, triangles_area
 from surfmesh._core import NIL
 from surfmesh._core import triangulation as core
 from surfmesh._core.triangulation import DEAD, DONE
@@ -193,6 +194,17 @@ def plane_triangulation(xy: np.ndarray, size: np.ndarray | None = None) -> core.
     tri = np.array(rows, np.int32).ravel()
     nothing = np.zeros(len(rows), np.uint8)
     return core.Triangulation(xy, size, tri, adj, nothing, np.repeat(nothing, 3))
+
+
+def random_plane(seed: int, n: int = 30) -> core.Triangulation:
+    """The plane triangulated over n random points of the unit square."""
+    return plane_triangulation(np.random.default_rng(seed).uniform(0, 1, (n, 2)))
+
+
+def area(t: core.Triangulation) -> Fraction:
+    """Of the live triangles without the ghosts, exactly."""
+    rows = corners(t)[live_triangles(t)]
+    return triangles_area(t.xy, rows[(rows >= 0).all(axis=1)].tolist())
 
 
 def half_edges(t: core.Triangulation) -> dict[tuple[int, int], int]:

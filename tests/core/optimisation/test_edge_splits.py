@@ -4,28 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from naive.exact import triangles_area
 from naive.triangulation import (
+    area,
     check_triangulation,
     corners,
     half_edges,
-    live_triangles,
-    plane_triangulation,
+    random_plane,
     triangle_set,
 )
 
 from surfmesh._core import NIL
 from surfmesh._core.optimisation import split_edge
-
-
-def random_plane(seed, n=30):
-    return plane_triangulation(np.random.default_rng(seed).uniform(0, 1, (n, 2)))
-
-
-def area(t):
-    rows = corners(t)[live_triangles(t)]
-    return triangles_area(t.xy, rows[(rows >= 0).all(axis=1)].tolist())
-
 
 seeds = st.integers(0, 2**31)
 
