@@ -12,7 +12,7 @@ seams: where closed surfaces of formulas have their seams: out of the way of the
 sheets: what is intersected, each as a model: a surface over a rectangle becomes one face.
 complex: vertices, edges and faces that share them by number, and where each face comes from.
 bounds: how far surfaces and curves bend over cells: boxes that hold them, cones of normals.
-cells: the (u, v) box of a face in cells, an edge in pieces, halved level after level.
+cells: the (u, v) box of a face in cells, an edge likewise, halved level after level.
 newton: points pulled onto two surfaces, or onto a curve and a surface.
 regions: which points of the (u, v) plane lie within the loops of a face.
 piercings: where an edge meets the surface of a face: all places.

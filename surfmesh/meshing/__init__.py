@@ -6,7 +6,7 @@ patch: one domain and one size field become triangles, once for all; the rounds 
 edges: edges of a CAD model, each cut once for all its faces.
 faces: one face of a CAD model, and what is done where it is narrow, thin or faulty.
 solids: faces joined, groups, volumes.
-finishing: second order, and short edges collapsed.
+finishing: second order, vertices off the surface, short edges collapsed.
 estimate: how many triangles there will be.
 triangle_count: sizes for a wanted number of triangles.
 explain: which rule decides the size at a point.
