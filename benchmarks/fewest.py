@@ -36,25 +36,25 @@ def next_fineness(
     tried: (x, reach / limit) in the order of the attempts, one at least. Of attempts that
     contradict each other the coarsest that keeps the limit counts.
     """
-    kept = min((x for x, share in tried if share <= 1.0), default=math.inf)
-    broken = max((x for x, share in tried if share > 1.0 and x < kept), default=0.0)
+    kept = min((x for x, fraction in tried if fraction <= 1.0), default=math.inf)
+    broken = max((x for x, fraction in tried if fraction > 1.0 and x < kept), default=0.0)
     if kept <= lowest * NEAR or broken * NEAR >= min(kept, highest):
         return None
     if broken > 0.0 and kept < math.inf:
         return _within(dict(tried), broken, kept, halve=len(tried) % HALVED == 0)
-    last, share = tried[-1]
-    step = math.sqrt(max(share, LEAST) / AIM)
+    last, fraction = tried[-1]
+    step = math.sqrt(max(fraction, LEAST) / AIM)
     least = SMALLEST_STEP ** (2.0 ** (len(tried) - 1))
     step = min(step, 1.0 / least) if broken == 0.0 else max(step, least)
     return min(max(last * min(max(step, 1.0 / LARGEST_STEP), LARGEST_STEP), lowest), highest)
 
 
-def _within(shares: dict[float, float], broken: float, kept: float, halve: bool) -> float:
+def _within(fractions: dict[float, float], broken: float, kept: float, halve: bool) -> float:
     """Between the ends of the bracket, by the line through them or in their middle."""
     width = math.log(kept / broken)
-    above, below = (math.log(max(shares[x], LEAST)) for x in (broken, kept))
-    goal = math.log(MISS if shares[kept] >= 1.0 / NEAR**2 else AIM)
+    above, below = (math.log(max(fractions[x], LEAST)) for x in (broken, kept))
+    goal = math.log(MISS if fractions[kept] >= 1.0 / NEAR**2 else AIM)
     part = 0.5 if halve else min(max((above - goal) / (above - below), INSET), 1.0 - INSET)
-    if not halve and shares[kept] >= 1.0 / NEAR**2:  # close already: just aside of it
+    if not halve and fractions[kept] >= 1.0 / NEAR**2:  # close already: just aside of it
         part = max(part, 1.0 - math.log(NEAR) / width)
     return broken * math.exp(part * width)

@@ -89,10 +89,10 @@ def worst_triangles(mesh: sm.SurfaceMesh, surface: Surface, number: int = 20) ->
     at_boundary[mesh.boundary_edges.ravel()] = True
     lo, hi = np.array(surface.domain).T
     place = mesh.uv[worst].mean(axis=1)
-    share = (place - lo) / (hi - lo)
+    fraction = (place - lo) / (hi - lo)
     return {
         "at_boundary": int(at_boundary[mesh.triangles[worst]].any(axis=1).sum()),
-        "near_sides": int((np.minimum(share, 1.0 - share) < 0.02).any(axis=1).sum()),
+        "near_sides": int((np.minimum(fraction, 1.0 - fraction) < 0.02).any(axis=1).sum()),
         "of": number,
         "uv": [round(float(value), 5) for value in place[0]],
     }

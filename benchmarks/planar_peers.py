@@ -69,8 +69,8 @@ def surfmesh(plate: PlanarDomain, law: str, scale: float) -> Triangles:
     sizes = scale if law == "uniform" else size_law(plate, law, scale)
     sm.mesh(plate, 0.2)  # imports, outside the clock
 
-    def progress(stage: str, share: float) -> None:
-        print(f"  surfmesh: {stage} {share:.0%}", file=sys.stderr)
+    def progress(stage: str, fraction: float) -> None:
+        print(f"  surfmesh: {stage} {fraction:.0%}", file=sys.stderr)
 
     start = time.perf_counter()
     mesh = sm.mesh(plate, sm.Sizing(size=sizes, growth=GROWTH), progress=progress)

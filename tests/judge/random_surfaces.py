@@ -47,9 +47,9 @@ def _waves(draw: Random, variables: str, height: float, fastest: float = 4.0) ->
     return " + ".join(terms)
 
 
-def _harmonics(draw: Random, variable: str, share: float) -> str:
+def _harmonics(draw: Random, variable: str, fraction: float) -> str:
     """1 + a Fourier polynomial of the variable that is at most ``share``."""
-    terms, left = ["1"], share
+    terms, left = ["1"], fraction
     for _ in range(draw.randint(1, 3)):
         a = round(draw.uniform(0, left), 3)
         left -= a
@@ -68,10 +68,10 @@ def _trimmed(draw: Random) -> Truth:
     (u0, u1), (v0, v1) = plain.u, plain.v
     middle, half = ((u0 + u1) / 2, (v0 + v1) / 2), ((u1 - u0) / 2, (v1 - v0) / 2)
 
-    def ring(count: int, x: float, y: float, share: float) -> np.ndarray:
+    def ring(count: int, x: float, y: float, fraction: float) -> np.ndarray:
         a = 2 * math.pi * (np.arange(count) + draw.random()) / count
-        u = middle[0] + half[0] * (x + share * np.cos(a))
-        return np.column_stack([u, middle[1] + half[1] * (y + share * np.sin(a))])
+        u = middle[0] + half[0] * (x + fraction * np.cos(a))
+        return np.column_stack([u, middle[1] + half[1] * (y + fraction * np.sin(a))])
 
     loops = [ring(draw.choice((5, 24, 100)), 0, 0, draw.uniform(0.6, 0.98))]
     for x in (-0.3, 0.3)[: draw.randint(0, 2)]:

@@ -25,11 +25,11 @@ def test_shares_never_fall_and_end_below_one(kind):
     make, sizes = THINGS[kind]
     heard = []
     sm.mesh(make(), sizes, progress=lambda *said: heard.append(said))
-    shares = [share for _, share in heard]
-    assert shares == sorted(shares) and shares[0] == 0.0 and shares[-1] <= 1.0
+    fractions = [fraction for _, fraction in heard]
+    assert fractions == sorted(fractions) and fractions[0] == 0.0 and fractions[-1] <= 1.0
     stages = {stage for stage, _ in heard}
     assert {"sizing", "packing", "mapping"} <= stages
-    assert len(set(shares)) > 6  # faces and passes are heard of, not only stages
+    assert len(set(fractions)) > 6  # faces and passes are heard of, not only stages
 
 
 @pytest.mark.parametrize("kind", THINGS)
@@ -60,7 +60,7 @@ def test_what_progress_raises_comes_through():
     class Enough(Exception):
         pass
 
-    def progress(stage, share):
+    def progress(stage, fraction):
         if stage == "boundary":
             raise Enough
 
@@ -71,7 +71,7 @@ def test_what_progress_raises_comes_through():
 def test_a_stopped_command_leaves_no_file(tmp_path, monkeypatch, capsys):
     from surfmesh.cli.progress import ProgressBar
 
-    monkeypatch.setattr(ProgressBar, "__call__", lambda self, stage, share: share < 0.5)
+    monkeypatch.setattr(ProgressBar, "__call__", lambda self, stage, fraction: fraction < 0.5)
     argv = "mesh --x u --y v --z u*v --u 0 1 --v 0 1 --size 0.2 -o".split()
     assert main([*argv, str(tmp_path / "a.vtu"), "--picture", str(tmp_path / "a.png")]) == 2
     assert list(tmp_path.iterdir()) == []

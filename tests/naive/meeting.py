@@ -31,8 +31,8 @@ def _clipped(polygon, at, normal):
         p = polygon[k - 1]
         here, there = _dot(_minus(p, at), normal), _dot(_minus(q, at), normal)
         if (here < 0 < there) or (there < 0 < here):
-            share = here / (here - there)
-            kept.append([x + share * (y - x) for x, y in zip(p, q)])
+            fraction = here / (here - there)
+            kept.append([x + fraction * (y - x) for x, y in zip(p, q)])
         if there <= 0:
             kept.append(q)
     return kept

@@ -44,12 +44,12 @@ assert_type(sm.load("torus"), Surface | sm.CadModel)
 said: list[tuple[str, float]] = []
 
 
-def stop_early(stage: str, share: float) -> bool:
-    return share < 0.5
+def stop_early(stage: str, fraction: float) -> bool:
+    return fraction < 0.5
 
 
 sm.mesh(surfaces[0], progress=stop_early)
-sm.mesh(surfaces[0], progress=lambda stage, share: said.append((stage, share)))
+sm.mesh(surfaces[0], progress=lambda stage, fraction: said.append((stage, fraction)))
 try:
     sm.mesh(surfaces[0], optimise="yes")  # type: ignore[arg-type]
 except sm.errors.Cancelled as error:

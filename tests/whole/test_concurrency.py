@@ -74,7 +74,7 @@ def test_a_pool_of_processes(alone):
 def test_stopping_one_thread_leaves_the_other_alone(alone):
     def stopped(_):
         with pytest.raises(sm.errors.Cancelled):
-            sm.mesh(sm.load("torus"), 0.3, progress=lambda stage, share: share < 0.5)
+            sm.mesh(sm.load("torus"), 0.3, progress=lambda stage, fraction: fraction < 0.5)
 
     with ThreadPoolExecutor(2) as pool:
         gone = pool.submit(stopped, None)

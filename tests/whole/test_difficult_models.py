@@ -25,12 +25,12 @@ def crescent():
 def with_bent_pcurves(model, number, bump, tolerance):
     """The p-curves of a face's arcs to the cusp at (2, 0) bent across each other near there."""
     face = model.faces[number]
-    share = np.linspace(0.0, 1.0, 65)
+    fraction = np.linspace(0.0, 1.0, 65)
     loops = []
     for loop in face.loops:
         bent = []
         for coedge in loop:
-            uv = coedge.uv(share)
+            uv = coedge.uv(fraction)
             points = face.surface.evaluate(uv, 0)[0]
             away = np.linalg.norm(points[:, :2] - (2.0, 0.0), axis=1)
             inner = abs(np.linalg.norm(points[32, :2] - (1.0, 0.0)) - 1.0) < 1e-6
@@ -40,7 +40,7 @@ def with_bent_pcurves(model, number, bump, tolerance):
                 moved = points + np.concatenate([push, np.zeros((65, 1))], axis=1)
                 uv = np.stack([(moved - face.surface.origin) @ face.surface.x,
                                (moved - face.surface.origin) @ face.surface.y], axis=1)  # fmt: skip
-                spline = make_interp_spline(coedge.p0 + share * (coedge.p1 - coedge.p0), uv, k=3)
+                spline = make_interp_spline(coedge.p0 + fraction * (coedge.p1 - coedge.p0), uv, k=3)
                 coedge = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
             bent.append(coedge)
         loops.append(tuple(bent))

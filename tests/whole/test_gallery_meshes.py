@@ -258,9 +258,9 @@ def test_unknown_options_and_things_that_are_no_surface_are_refused():
 
 def test_progress_rises_through_the_stages():
     told = []
-    sm.mesh(sm.load("plane"), 0.5, progress=lambda stage, share: told.append((stage, share)))
-    shares = [share for _, share in told]
-    assert shares == sorted(shares) and 0.0 <= shares[0] and shares[-1] < 1.0
+    sm.mesh(sm.load("plane"), 0.5, progress=lambda stage, fraction: told.append((stage, fraction)))
+    fractions = [fraction for _, fraction in told]
+    assert fractions == sorted(fractions) and 0.0 <= fractions[0] and fractions[-1] < 1.0
     assert [s for s, _ in told][-1] == "mapping"
 
 

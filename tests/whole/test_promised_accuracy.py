@@ -105,10 +105,10 @@ def torus_with_mates():
 
 
 @pytest.mark.parametrize("part", [cut_cone, cut_torus, torus_with_mates])
-@pytest.mark.parametrize("share", [1 / 120, 1 / 300, 1 / 1000, 1 / 1050])
-def test_edges_of_uneven_curvature_keep_to_the_chord(part, share):
+@pytest.mark.parametrize("fraction", [1 / 120, 1 / 300, 1 / 1000, 1 / 1050])
+def test_edges_of_uneven_curvature_keep_to_the_chord(part, fraction):
     model = from_cadquery(part())
-    chord = share * model.diagonal
+    chord = fraction * model.diagonal
     report = check(mesh(model, chord=chord))
     assert report.surface_deviation_max <= chord
 

@@ -37,9 +37,9 @@ def triangle(width: float, size: float = 1000.0) -> cq.Face:
 
 
 @pytest.mark.parametrize("size", [1.0, 1000.0])
-@pytest.mark.parametrize("share", [1.5e-4, 1e-5])
-def test_edges_that_meet_in_a_pole_that_is_nearly_a_point(share, size):
-    model = sm.from_cadquery(triangle(share * size, size))
+@pytest.mark.parametrize("fraction", [1.5e-4, 1e-5])
+def test_edges_that_meet_in_a_pole_that_is_nearly_a_point(fraction, size):
+    model = sm.from_cadquery(triangle(fraction * size, size))
     report = sm.check(sm.mesh(model, sm.Sizing(chord=1e-3 * size)))
     assert report.folded == 0
     assert not any("intersects" in problem for problem in report.problems)

@@ -40,9 +40,9 @@ def test_ordinary_surfaces_stay_as_they_are():
     st.floats(1.0, 6.0), st.floats(1.0, 6.0), st.floats(-1e3, 1e3), st.floats(1e-3, 1e3),
     st.lists(st.floats(0.0, 1.0), min_size=1, max_size=9),
 )  # fmt: skip
-def test_bent_parameters_and_back(q0, q1, first, length, shares):
+def test_bent_parameters_and_back(q0, q1, first, length, fractions):
     axis = BentAxis(np.array([first, first + length]), np.array([[q0, q1]]))
-    s = first + length * np.array(shares)
+    s = first + length * np.array(fractions)
     u = axis.parameter(s)
     assert ((u >= first) & (u <= first + length)).all()
     assert np.allclose(axis.parameter(axis.bent(u)), u, rtol=0, atol=1e-12 * (abs(first) + length))

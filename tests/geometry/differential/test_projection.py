@@ -48,8 +48,8 @@ def test_brute_force_finds_nothing_nearer():
     surface = load_formula_file(gallery()["wavy"])
     uv, points, _ = offset(surface, count=50)
     _, found, _ = closest_point(surface, points, uv + 1e-3, steps=4)
-    share = np.linspace(-0.05, 0.05, 41)
-    near = np.stack(np.meshgrid(share, share), axis=-1).reshape(-1, 2)
+    fraction = np.linspace(-0.05, 0.05, 41)
+    near = np.stack(np.meshgrid(fraction, fraction), axis=-1).reshape(-1, 2)
     for place, point, distance in zip(uv, points, found):
         cloud = surface.evaluate(place + near)[0]
         assert distance <= np.linalg.norm(cloud - point, axis=1).min() * (1 + 1e-6)
@@ -60,8 +60,8 @@ def test_never_farther_than_the_guess(name):
     surface = load_formula_file(gallery()[name])
     lo, hi = np.array(surface.domain).T
     rng = np.random.default_rng(4)
-    share = np.round(rng.uniform(0, 1, (300, 2)) * 4) / 4  # many on poles, sides and corners
-    guess = lo + share * (hi - lo)
+    fraction = np.round(rng.uniform(0, 1, (300, 2)) * 4) / 4  # many on poles, sides and corners
+    guess = lo + fraction * (hi - lo)
     start = surface.evaluate(guess)[0]
     points = start + rng.normal(0, 0.2 * np.ptp(start), start.shape)
     uv, distance, foot = closest_point(surface, points, guess, steps=5)

@@ -107,8 +107,8 @@ def test_derivative_bounds_hold_samples(name):
     hi = lo + rng.uniform(0, 0.1, (40, 2)) * [u1 - u0, v1 - v0]
     lower, upper = surface.derivative_bounds(lo, hi)
     assert lower.shape == upper.shape == (40, 5, 3)
-    for share in rng.uniform(0, 1, (20, 2)):
-        values = np.stack(surface.evaluate(lo + share * (hi - lo), 2)[1:], axis=1)
+    for fraction in rng.uniform(0, 1, (20, 2)):
+        values = np.stack(surface.evaluate(lo + fraction * (hi - lo), 2)[1:], axis=1)
         slack = 1e-12 * np.abs(values).max()
         assert (lower - slack <= values).all() and (values <= upper + slack).all()
 

@@ -126,8 +126,8 @@ def test_bounds_hold_every_sample(text, corner, size):
     lo = np.array([corner]) / 100
     hi = lo + np.array([size]) / 100
     lower, upper = tape.bounds(lo, hi)
-    share = np.linspace(1e-9, 1 - 1e-9, 13)  # at its ends a slope is that of the inside
-    grid = np.stack(np.meshgrid(share, share), axis=-1).reshape(-1, 2)
+    fraction = np.linspace(1e-9, 1 - 1e-9, 13)  # at its ends a slope is that of the inside
+    grid = np.stack(np.meshgrid(fraction, fraction), axis=-1).reshape(-1, 2)
     values = np.hstack(tape.evaluate(lo + grid * (hi - lo)))
     defined = np.isfinite(values)
     assert not np.isnan(lower).any() and not np.isnan(upper).any()

@@ -83,7 +83,7 @@ def test_an_outline_finer_than_the_sizes_is_said_and_can_be_thinned():
 
 @given(st.integers(0, 10_000), st.integers(20, 400), st.floats(1e-4, 0.05), st.booleans())
 @settings(max_examples=25, deadline=None)
-def test_thinned_lines_stay_near_and_keep_their_regions(seed, count, share, holed):
+def test_thinned_lines_stay_near_and_keep_their_regions(seed, count, fraction, holed):
     import shapely
 
     outline = coast(count, seed)
@@ -91,7 +91,7 @@ def test_thinned_lines_stay_near_and_keep_their_regions(seed, count, share, hole
     holes = [0.2 * coast(count, seed + 1)] if holed else []
     walls = [np.array([outline[0], outline[0] * 1.5])]
     domain = sm.PlanarDomain(outline, holes, walls, outline[count // 2][None])
-    distance = share * 5000
+    distance = fraction * 5000
     try:
         thin = domain.simplified(distance)
     except sm.errors.DomainError as error:

@@ -72,9 +72,9 @@ def test_crescents_of_two_circles_a_hair_apart(off):
     assert report.triangles < 3000
 
 
-@pytest.mark.parametrize("share", [0.9, 1e-1, 1e-3, 2e-5])
-def test_a_needle_hole_has_four_nodes_round_it(share):
-    shape = cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(share * CHORD)
+@pytest.mark.parametrize("fraction", [0.9, 1e-1, 1e-3, 2e-5])
+def test_a_needle_hole_has_four_nodes_round_it(fraction):
+    shape = cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(fraction * CHORD)
     _, report = judged(shape, euler=0)
     tube = next(row for row in report.by_face if row.kind == "cylinder")
     assert report.triangles < 5000 and tube.triangles < 200
@@ -108,10 +108,10 @@ THIN = {
 
 
 @pytest.mark.parametrize("name", THIN)
-@pytest.mark.parametrize("share", [0.8, 0.05, 2e-3])
-def test_what_is_narrower_than_the_chord_is_clean_and_cheap(name, share):
+@pytest.mark.parametrize("fraction", [0.8, 0.05, 2e-3])
+def test_what_is_narrower_than_the_chord_is_clean_and_cheap(name, fraction):
     make, euler, most = THIN[name]
-    _, report = judged(make(share * CHORD), euler)
+    _, report = judged(make(fraction * CHORD), euler)
     assert report.triangles < most
 
 
@@ -125,9 +125,9 @@ def test_narrow_faces_by_other_requests(asked):
     judged(cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(0.002), 0, **dict(asked))
 
 
-@pytest.mark.parametrize("share", [0.3, 1e-3])
-def test_both_sides_of_a_thin_wall_are_meshed_alike(share):
-    width = share * CHORD
+@pytest.mark.parametrize("fraction", [0.3, 1e-3])
+def test_both_sides_of_a_thin_wall_are_meshed_alike(fraction):
+    width = fraction * CHORD
     shape = (
         cq.Workplane().spline([(0, 0), (2, 1), (4, -1), (6, 0)]).lineTo(6, width)
         .spline([(4, width - 1), (2, width + 1), (0, width)], includeCurrent=True).close()

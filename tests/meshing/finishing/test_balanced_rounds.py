@@ -120,9 +120,9 @@ def test_the_share_of_a_width_is_that_of_a_dense_search(ratio):
     middle = np.full((len(turn), 1), (1.0 + ratio) / 12.0)
     sag = np.hstack([along, middle, np.zeros_like(middle)])
     one_sided, width = np.abs(sag).max(), (sag.max(axis=1) - sag.min(axis=1)).max()
-    share = share_of_width(np.array([1.0]), np.array([ratio]), 1.0)[0]
-    assert share <= 1.0 and share == pytest.approx(one_sided / width, abs=0.08)
-    assert share <= one_sided / width + 1e-9
+    fraction = share_of_width(np.array([1.0]), np.array([ratio]), 1.0)[0]
+    assert fraction <= 1.0 and fraction == pytest.approx(one_sided / width, abs=0.08)
+    assert fraction <= one_sided / width + 1e-9
 
 
 @pytest.mark.parametrize("name", ["seashell", "wavy_sphere", "wavy"])

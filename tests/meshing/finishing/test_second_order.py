@@ -144,8 +144,8 @@ def test_no_jacobian_lies_below_the_bound(moves):
     nodes = STRAIGHT.astype(float)
     nodes[3:, :2] += np.reshape(moves, (3, 2))
     bound = least_jacobians(nodes, np.arange(6)[None])[0]
-    share = np.linspace(0, 1, 12)
-    s, t = (x[np.add.outer(share, share) <= 1] for x in np.meshgrid(share, share))
+    fraction = np.linspace(0, 1, 12)
+    s, t = (x[np.add.outer(fraction, fraction) <= 1] for x in np.meshgrid(fraction, fraction))
     r = 1 - s - t
     zero = np.zeros_like(s)
     along_s = np.array([1 - 4 * r, 4 * s - 1, zero, 4 * (r - s), 4 * t, -4 * t]).T @ nodes

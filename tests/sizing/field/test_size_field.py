@@ -172,8 +172,8 @@ def test_clamps():
 def test_expected_vertices_of_a_plane():
     surface = load("plane")
     field = size_field(surface, Sizing(size=0.1), find_sides(surface))
-    share = np.sqrt(3) / 2 * 0.1**2
-    assert field.expected_vertices() == pytest.approx(surface.facts["area"] / share, abs=110)
+    fraction = np.sqrt(3) / 2 * 0.1**2
+    assert field.expected_vertices() == pytest.approx(surface.facts["area"] / fraction, abs=110)
 
 
 def test_speeds_that_change_hide_no_curvature():
