@@ -37,13 +37,13 @@ using Cell = std::array<std::size_t, 3>;
 class Looker {
   public:
     /// rings_alone: not point by point.
-    Looker(const Surface& surface, const ProofMesh& mesh, SideDistances& sides,
-           const PoleGaps& gaps, bool rings_alone)
+    Looker(const Surface& surface, const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+           SideDistances& sides, const PoleGaps& gaps, bool rings_alone)
         : surface_(surface),
           mesh_(mesh),
           gaps_(gaps),
           bounds_(mesh.bounds),
-          ring_(mesh, sides),
+          ring_(mesh, at_vertices, sides),
           rings_alone_(rings_alone),
           layers_(mesh.corners.size(), 0),
           over_ring_(mesh.corners.size(), intervals::INFINITE),
@@ -465,22 +465,30 @@ SurfaceStatus look_closer(const Surface& surface, const ProofMesh& mesh, const P
                           std::span<const std::int32_t> which, std::span<const double> limits,
                           int levels, std::span<double> bound) {
     SideDistances sides(surface, mesh);
-    Looker looker(surface, mesh, sides, gaps, false);
+    const TrianglesAtVertices at_vertices(mesh.vertices);
+    Looker looker(surface, mesh, at_vertices, sides, gaps, false);
     Array<double> without{std::span<const double>(bound)};  // rings
     auto status = looker.look_at_all(which, limits, levels, bound);
     if (status != SurfaceStatus::DONE) return status;
+    LookedAt looked = looker.looked_at(without);
+    const auto is_without = [](std::uint8_t layers) { return layers == 0; };
+    if (std::all_of(looked.layers.begin(), looked.layers.end(), is_without)) return status;
     for (std::size_t t = 0; t < bound.size(); ++t)
-        if (looker.looked_at(without).layers[t] == 0) without[t] = bound[t];
+        if (is_without(looked.layers[t])) without[static_cast<std::ptrdiff_t>(t)] = bound[t];
     const Array<std::int32_t> others =
-        covering_triangles(mesh, sides, looker.looked_at(without), limits, bound);
+        covering_triangles(mesh, at_vertices, sides, looked, limits, bound);
     Array<double> unknown(bound.size(), intervals::INFINITE);
-    Looker again(surface, mesh, sides, gaps, true);
+    if (others.empty()) {
+        looked.over_ring = {unknown.data(), unknown.size()};
+        count_covering(mesh, at_vertices, sides, looked, bound);
+        return status;
+    }
+    Looker again(surface, mesh, at_vertices, sides, gaps, true);
     status = again.look_at_all({others.data(), others.size()}, limits, levels,
                                {unknown.data(), unknown.size()});
     if (status != SurfaceStatus::DONE) return status;
-    LookedAt looked = looker.looked_at(without);
     looked.over_ring = again.looked_at(without).over_ring;
-    count_covering(mesh, sides, looked, bound);
+    count_covering(mesh, at_vertices, sides, looked, bound);
     return SurfaceStatus::DONE;
 }
 
