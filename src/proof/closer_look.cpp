@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "proof/covering.hpp"
+#include "proof/distinct_places.hpp"
 #include "proof/triangle_grid.hpp"
 #include "values/segment.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double ROUNDING = TriangleRing::ROUNDING;
 constexpr std::size_t FIRST_LEVEL = 2, MOST_LEVELS = 8;
-constexpr std::size_t TOGETHER = 64;  // triangles whose first points are computed at once
+constexpr std::size_t TOGETHER = 256;  // triangles whose first points are computed at once
 constexpr int LAYERS = 2;             // of triangles around
 
 /// What is cut into cells: the triangle's own piece of the surface, or a gap beside it.
@@ -257,8 +258,13 @@ SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
     Array<Point2> uv;
     for (const std::int32_t t : which)
         append_grid({mesh_.uv[t], mesh_.bends[t]}, std::size_t{1} << FIRST_LEVEL, uv);
+    const DistinctPlaces places({uv.data(), uv.size()});
+    Array<EnclosedPoint> found(places.all().size());
+    const auto status = surface_.enclose(places.all(), {found.data(), found.size()});
     points.resize(uv.size());
-    return surface_.enclose({uv.data(), uv.size()}, {points.data(), points.size()});
+    for (std::size_t k = 0; k < uv.size(); ++k)
+        points.begin()[k] = found[places.at(k)];
+    return status;
 }
 
 /// Heights over a member's plane, and distances inside its sides; nothing where it is too far off.
