@@ -15,7 +15,7 @@ namespace {
 constexpr double ROUNDING = TriangleRing::ROUNDING;
 constexpr std::size_t FIRST_LEVEL = 2, MOST_LEVELS = 8;
 constexpr std::size_t TOGETHER = 256;  // triangles whose first points are computed at once
-constexpr int LAYERS = 2;             // of triangles around
+constexpr int LAYERS = 2;              // of triangles around
 
 /// What is cut into cells: the triangle's own piece of the surface, or a gap beside it.
 struct Piece {
@@ -262,8 +262,7 @@ SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
     Array<EnclosedPoint> found(places.all().size());
     const auto status = surface_.enclose(places.all(), {found.data(), found.size()});
     points.resize(uv.size());
-    for (std::size_t k = 0; k < uv.size(); ++k)
-        points.begin()[k] = found[places.at(k)];
+    for (std::size_t k = 0; k < uv.size(); ++k) points.begin()[k] = found[places.at(k)];
     return status;
 }
 

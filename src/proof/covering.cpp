@@ -35,8 +35,8 @@ bool for_covering(TriangleRing& ring, const ProofMesh& mesh, std::int32_t t, con
 }  // namespace
 
 Array<std::int32_t> covering_triangles(const ProofMesh& mesh,
-                                       const TrianglesAtVertices& at_vertices,
-                                       SideDistances& sides, const LookedAt& looked, std::span<const double> limits,
+                                       const TrianglesAtVertices& at_vertices, SideDistances& sides,
+                                       const LookedAt& looked, std::span<const double> limits,
                                        std::span<const double> bound) {
     TriangleRing ring(mesh, at_vertices, sides);
     Array<std::uint8_t> is_wanted(bound.size(), 0);

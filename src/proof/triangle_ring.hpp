@@ -61,7 +61,8 @@ class TriangleRing {
   public:
     static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 
-    TriangleRing(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices, SideDistances& sides);
+    TriangleRing(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+                 SideDistances& sides);
 
     /// Begin anew with one triangle alone; false where no statement is made with it.
     bool begin(std::int32_t t);
