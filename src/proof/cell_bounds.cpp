@@ -20,53 +20,70 @@ constexpr std::size_t SIDE_PAIRS = 6;
 constexpr std::array<std::size_t, SIDE_PAIRS> PAIR_FIRST = {0, 0, 0, 1, 1, 2},
                                               PAIR_OTHER = {0, 1, 2, 1, 2, 2};
 
-/// What R - L is made of at places of a cell: values at its corners, g_k there by side and corner, and
+/// What R - L is made of at a place of a cell: values at its corners, g_k there by side and corner, and
 /// R''''(e_k, e_k, e_m, e_m) by sides k and m,
 ///
 ///     l_k,    l_i l_j (l_c + [c is i or j]),    (s_k mean_k(s_m) + s_m mean_m(s_k)) / 2
 ///
 /// with i and j the ends of side k, s_k = l_i l_j, and the mean of smooth_bounds.hpp; half of that
 /// where k = m.
+constexpr double bend_weight(const Barycentric& l, std::size_t k, std::size_t c) {
+    const std::size_t i = k, j = (k + 1) % 3;
+    return l[i] * l[j] * (l[c] + (c == i || c == j ? 1.0 : 0.0));
+}
+
+/// Of s_m at x + s ((1 - t) u_i + t u_j - x), with the weight s, for the ends of side k.
+constexpr double mean_of_product(std::size_t k, std::size_t m, const Barycentric& l) {
+    const std::size_t a = m, b = (m + 1) % 3;
+    const auto half = [k](std::size_t c) { return c == k || c == (k + 1) % 3 ? 0.5 : 0.0; };
+    const double same = k == m ? 1.0 / 24.0 : 0.0;
+    return (l[a] * l[b] + l[a] * half(b) + l[b] * half(a)) / 12.0 + same;
+}
+
+constexpr double fourth_weight(const Barycentric& l, std::size_t k, std::size_t m) {
+    const auto product = [&l](std::size_t side) { return l[side] * l[(side + 1) % 3]; };
+    const double both =
+        product(k) * mean_of_product(k, m, l) + product(m) * mean_of_product(m, k, l);
+    return k == m ? 0.25 * both : 0.5 * both;
+}
+
+/// The places of a cell that is cut into FINER^2: its corners, where R - L is known; those on a side,
+/// which all else but its own ends and side has no weight at; those within.
 template <std::size_t FINER>
 struct PlaceWeights {
-    static constexpr std::size_t COUNT = (FINER + 1) * (FINER + 2) / 2;
-    std::array<std::array<double, COUNT>, 3> value{};
-    std::array<std::array<std::array<double, COUNT>, 3>, 3> bend{};  // [side][corner]
-    std::array<std::array<double, COUNT>, SIDE_PAIRS> fourth{};
+    static constexpr std::size_t SIDE = FINER - 1, INNER = (FINER - 1) * (FINER - 2) / 2,
+                                 COUNT = 3 + 3 * SIDE + INNER;
+    using AtSide = std::array<double, SIDE>;
+    using Within = std::array<double, INNER>;
+    std::array<AtSide, 2> side_value{}, side_bend{};  // by end
+    AtSide side_fourth{};
+    std::array<Within, 3> value{};
+    std::array<std::array<Within, 3>, 3> bend{};  // [side][corner]
+    std::array<Within, SIDE_PAIRS> fourth{};
 
     constexpr PlaceWeights() {
+        for (std::size_t place = 0; place < SIDE; ++place) {
+            const Barycentric l = {part(FINER - 1 - place), part(place + 1), 0.0};
+            for (std::size_t c = 0; c < 2; ++c) {
+                side_value[c][place] = l[c];
+                side_bend[c][place] = bend_weight(l, 0, c);
+            }
+            side_fourth[place] = fourth_weight(l, 0, 0);
+        }
         std::size_t place = 0;
-        for (std::size_t a = 0; a <= FINER; ++a)
-            for (std::size_t b = 0; a + b <= FINER; ++b, ++place) {
-                const std::array<std::size_t, 3> parts = {FINER - a - b, a, b};
+        for (std::size_t a = 1; a < FINER; ++a)
+            for (std::size_t b = 1; a + b < FINER; ++b, ++place) {
+                const Barycentric l = {part(FINER - a - b), part(a), part(b)};
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const std::size_t i = k, j = (k + 1) % 3;
-                    value[k][place] = part(parts[k]);
-                    for (std::size_t c = 0; c < 3; ++c)
-                        bend[k][c][place] = part(parts[i]) * part(parts[j]) *
-                                            (part(parts[c]) + (c == i || c == j ? 1.0 : 0.0));
+                    value[k][place] = l[k];
+                    for (std::size_t c = 0; c < 3; ++c) bend[k][c][place] = bend_weight(l, k, c);
                 }
-                const Barycentric l = {part(parts[0]), part(parts[1]), part(parts[2])};
-                for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
-                    const std::size_t k = PAIR_FIRST[p], m = PAIR_OTHER[p];
-                    const double both =
-                        product(l, k) * mean(k, m, l) + product(l, m) * mean(m, k, l);
-                    fourth[p][place] = k == m ? 0.25 * both : 0.5 * both;
-                }
+                for (std::size_t p = 0; p < SIDE_PAIRS; ++p)
+                    fourth[p][place] = fourth_weight(l, PAIR_FIRST[p], PAIR_OTHER[p]);
             }
     }
 
   private:
-    static constexpr double product(const Barycentric& l, std::size_t k) {
-        return l[k] * l[(k + 1) % 3];
-    }
-    /// Of s_m at x + s ((1 - t) u_i + t u_j - x), with the weight s, for the ends of side k.
-    static constexpr double mean(std::size_t k, std::size_t m, const Barycentric& l) {
-        const std::size_t a = m, b = (m + 1) % 3;
-        const auto half = [k](std::size_t c) { return c == k || c == (k + 1) % 3 ? 0.5 : 0.0; };
-        const double same = k == m ? 1.0 / 24.0 : 0.0;
-        return (l[a] * l[b] + l[a] * half(b) + l[b] * half(a)) / 12.0 + same;
-    }
     static constexpr double part(std::size_t n) {
         return static_cast<double>(n) / static_cast<double>(FINER);
     }
@@ -79,30 +96,50 @@ double largest(const std::array<double, COUNT>& numbers) {
     return most;
 }
 
+template <std::size_t COUNT>
+void add(std::array<double, COUNT>& sum, double factor, const std::array<double, COUNT>& weights) {
+    for (std::size_t p = 0; p < COUNT; ++p) sum[p] += factor * weights[p];
+}
+
 /// |d . (R - L)| along axis d at most, at places of a cell; square: of its size over the triangle's;
 /// error: of R''(e, e) at its corners, of which there is a sixth at most (sum l_i l_j g_ij / 2).
 template <std::size_t FINER>
 auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts& rho, double square,
                     double error) {
-    static constexpr PlaceWeights<FINER> WEIGHTS;
-    constexpr std::size_t COUNT = PlaceWeights<FINER>::COUNT;
-    std::array<double, COUNT> away{}, left{};
-    const auto add = [](std::array<double, COUNT>& sum, double factor,
-                        const std::array<double, COUNT>& weights) {
-        for (std::size_t p = 0; p < COUNT; ++p) sum[p] += factor * weights[p];
+    using Places = PlaceWeights<FINER>;
+    static constexpr Places WEIGHTS;
+    std::array<double, Places::COUNT> found;
+    auto* next = found.begin();
+    const double off = square / 6.0 * error;
+    const auto take = [&next, off](const auto& away, const auto& left) {
+        for (std::size_t p = 0; p < away.size(); ++p) *next++ = std::abs(away[p]) + (left[p] + off);
     };
+    const auto bend_at = [&](std::size_t k, std::size_t c) {
+        return -square / 6.0 * corner[c]->bends.value[d][k];
+    };
+    const auto fourth_of = [&](std::size_t k, std::size_t m) {
+        return square * square * (6.0 * std::min(rho[d][k], rho[d][m]));
+    };
+    for (const PlaceJet* there : corner) *next++ = std::abs(there->away[d]) + off;
+    for (std::size_t k = 0; k < 3; ++k) {
+        typename Places::AtSide away{}, left{};
+        for (std::size_t end = 0; end < 2; ++end) {
+            const std::size_t c = (k + end) % 3;
+            add(away, corner[c]->away[d], WEIGHTS.side_value[end]);
+            add(away, bend_at(k, c), WEIGHTS.side_bend[end]);
+        }
+        add(left, fourth_of(k, k), WEIGHTS.side_fourth);
+        take(away, left);
+    }
+    typename Places::Within away{}, left{};
     for (std::size_t c = 0; c < 3; ++c) {
         add(away, corner[c]->away[d], WEIGHTS.value[c]);
-        for (std::size_t k = 0; k < 3; ++k)
-            add(away, -square / 6.0 * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
+        for (std::size_t k = 0; k < 3; ++k) add(away, bend_at(k, c), WEIGHTS.bend[k][c]);
     }
-    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
-        const double most = 6.0 * std::min(rho[d][PAIR_FIRST[p]], rho[d][PAIR_OTHER[p]]);
-        add(left, square * square * most, WEIGHTS.fourth[p]);
-    }
-    for (std::size_t p = 0; p < COUNT; ++p)
-        away[p] = std::abs(away[p]) + (left[p] + square / 6.0 * error);
-    return away;
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p)
+        add(left, fourth_of(PAIR_FIRST[p], PAIR_OTHER[p]), WEIGHTS.fourth[p]);
+    take(away, left);
+    return found;
 }
 
 /// The largest |n . (R - L)| and |R - L| at places of a cell.
@@ -170,11 +207,10 @@ class Cells {
     void take_corner(const PlaceJet& there) { take_farther(away_of(there)); }
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
-        SideBends bends;
         FourthParts more = rho_;
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
-        for (const PlaceJet* there : corner) join(bends, there->bends, more, with_slope_);
+        const SideBends bends = bends_of_cell(corner, more, with_slope_);
         if (within_ == CellPlaces::NONE)
             away_ = {intervals::INFINITE, intervals::INFINITE};
         else
@@ -260,6 +296,12 @@ double Cells::steepest(const CellCorners& corner, std::size_t k, double directio
 }
 
 }  // namespace
+
+SideBends bends_of_cell(const CellCorners& corner, const FourthParts& more, bool with_slope) {
+    SideBends found;
+    for (const PlaceJet* there : corner) join(found, there->bends, more, with_slope);
+    return found;
+}
 
 SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
     const double error = largest_error(corner);

@@ -19,6 +19,9 @@ namespace surfmesh {
 /// Side k of a cell, from corner k on, runs along side k of the triangle, or against all three.
 using CellCorners = std::array<const PlaceJet*, 3>;
 
+/// Suprema over a cell; more: what g_k may be from linear.
+SideBends bends_of_cell(const CellCorners& corner, const FourthParts& more, bool with_slope);
+
 /// Averaged as the integrals of smooth_bounds.hpp are, of one cell alone.
 SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "proof/covering.hpp"
+#include "proof/distinct_places.hpp"
 #include "proof/triangle_grid.hpp"
 #include "values/segment.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double ROUNDING = TriangleRing::ROUNDING;
 constexpr std::size_t FIRST_LEVEL = 2, MOST_LEVELS = 8;
-constexpr std::size_t TOGETHER = 64;  // triangles whose first points are computed at once
-constexpr int LAYERS = 2;             // of triangles around
+constexpr std::size_t TOGETHER = 256;  // triangles whose first points are computed at once
+constexpr int LAYERS = 2;              // of triangles around
 
 /// What is cut into cells: the triangle's own piece of the surface, or a gap beside it.
 struct Piece {
@@ -37,13 +38,13 @@ using Cell = std::array<std::size_t, 3>;
 class Looker {
   public:
     /// rings_alone: not point by point.
-    Looker(const Surface& surface, const ProofMesh& mesh, SideDistances& sides,
-           const PoleGaps& gaps, bool rings_alone)
+    Looker(const Surface& surface, const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+           SideDistances& sides, const PoleGaps& gaps, bool rings_alone)
         : surface_(surface),
           mesh_(mesh),
           gaps_(gaps),
           bounds_(mesh.bounds),
-          ring_(mesh, sides),
+          ring_(mesh, at_vertices, sides),
           rings_alone_(rings_alone),
           layers_(mesh.corners.size(), 0),
           over_ring_(mesh.corners.size(), intervals::INFINITE),
@@ -257,8 +258,12 @@ SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
     Array<Point2> uv;
     for (const std::int32_t t : which)
         append_grid({mesh_.uv[t], mesh_.bends[t]}, std::size_t{1} << FIRST_LEVEL, uv);
+    const DistinctPlaces places({uv.data(), uv.size()});
+    Array<EnclosedPoint> found(places.all().size());
+    const auto status = surface_.enclose(places.all(), {found.data(), found.size()});
     points.resize(uv.size());
-    return surface_.enclose({uv.data(), uv.size()}, {points.data(), points.size()});
+    for (std::size_t k = 0; k < uv.size(); ++k) points.begin()[k] = found[places.at(k)];
+    return status;
 }
 
 /// Heights over a member's plane, and distances inside its sides; nothing where it is too far off.
@@ -465,22 +470,30 @@ SurfaceStatus look_closer(const Surface& surface, const ProofMesh& mesh, const P
                           std::span<const std::int32_t> which, std::span<const double> limits,
                           int levels, std::span<double> bound) {
     SideDistances sides(surface, mesh);
-    Looker looker(surface, mesh, sides, gaps, false);
+    const TrianglesAtVertices at_vertices(mesh.vertices);
+    Looker looker(surface, mesh, at_vertices, sides, gaps, false);
     Array<double> without{std::span<const double>(bound)};  // rings
     auto status = looker.look_at_all(which, limits, levels, bound);
     if (status != SurfaceStatus::DONE) return status;
+    LookedAt looked = looker.looked_at(without);
+    const auto is_without = [](std::uint8_t layers) { return layers == 0; };
+    if (std::all_of(looked.layers.begin(), looked.layers.end(), is_without)) return status;
     for (std::size_t t = 0; t < bound.size(); ++t)
-        if (looker.looked_at(without).layers[t] == 0) without[t] = bound[t];
+        if (is_without(looked.layers[t])) without[static_cast<std::ptrdiff_t>(t)] = bound[t];
     const Array<std::int32_t> others =
-        covering_triangles(mesh, sides, looker.looked_at(without), limits, bound);
+        covering_triangles(mesh, at_vertices, sides, looked, limits, bound);
     Array<double> unknown(bound.size(), intervals::INFINITE);
-    Looker again(surface, mesh, sides, gaps, true);
+    if (others.empty()) {
+        looked.over_ring = {unknown.data(), unknown.size()};
+        count_covering(mesh, at_vertices, sides, looked, bound);
+        return status;
+    }
+    Looker again(surface, mesh, at_vertices, sides, gaps, true);
     status = again.look_at_all({others.data(), others.size()}, limits, levels,
                                {unknown.data(), unknown.size()});
     if (status != SurfaceStatus::DONE) return status;
-    LookedAt looked = looker.looked_at(without);
     looked.over_ring = again.looked_at(without).over_ring;
-    count_covering(mesh, sides, looked, bound);
+    count_covering(mesh, at_vertices, sides, looked, bound);
     return SurfaceStatus::DONE;
 }
 

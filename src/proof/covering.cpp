@@ -34,10 +34,11 @@ bool for_covering(TriangleRing& ring, const ProofMesh& mesh, std::int32_t t, con
 
 }  // namespace
 
-Array<std::int32_t> covering_triangles(const ProofMesh& mesh, SideDistances& sides,
+Array<std::int32_t> covering_triangles(const ProofMesh& mesh,
+                                       const TrianglesAtVertices& at_vertices, SideDistances& sides,
                                        const LookedAt& looked, std::span<const double> limits,
                                        std::span<const double> bound) {
-    TriangleRing ring(mesh, sides);
+    TriangleRing ring(mesh, at_vertices, sides);
     Array<std::uint8_t> is_wanted(bound.size(), 0);
     for (std::size_t t = 0; t < bound.size(); ++t) {
         if (looked.layers[t] == 0) continue;
@@ -54,9 +55,9 @@ Array<std::int32_t> covering_triangles(const ProofMesh& mesh, SideDistances& sid
     return found;
 }
 
-void count_covering(const ProofMesh& mesh, SideDistances& sides, const LookedAt& looked,
-                    std::span<double> bound) {
-    TriangleRing ring(mesh, sides);
+void count_covering(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+                    SideDistances& sides, const LookedAt& looked, std::span<double> bound) {
+    TriangleRing ring(mesh, at_vertices, sides);
     Array<double> counted{std::span<const double>(bound)};
     for (std::size_t t = 0; t < bound.size(); ++t) {
         if (looked.layers[t] == 0) continue;

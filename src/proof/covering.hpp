@@ -31,13 +31,14 @@ struct LookedAt {
 };
 
 /// Triangles that may cover those with rings, where what is known of them does not suffice.
-Array<std::int32_t> covering_triangles(const ProofMesh& mesh, SideDistances& sides,
+Array<std::int32_t> covering_triangles(const ProofMesh& mesh,
+                                       const TrianglesAtVertices& at_vertices, SideDistances& sides,
                                        const LookedAt& looked, std::span<const double> limits,
                                        std::span<const double> bound);
 
 /// bound (m,): raised where a piece covers a triangle around it from farther than both their bounds;
 /// without rings where that is not known.
-void count_covering(const ProofMesh& mesh, SideDistances& sides, const LookedAt& looked,
-                    std::span<double> bound);
+void count_covering(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+                    SideDistances& sides, const LookedAt& looked, std::span<double> bound);
 
 }  // namespace surfmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace surfmesh {
 namespace {
@@ -48,48 +49,54 @@ void set_weights(const Steps& steps, Weights& of) {
 /// By coordinate.
 Point2 sizes_of_vector(Point2 a) { return {std::abs(a.x), std::abs(a.y)}; }
 
-/// psi'(e_k) over the piece.
+/// psi'(e_k) over the piece, linear, by its values at the corners: e_k, and 4 bend_k at one end, less
+/// that at the other, 4 (bend_i - bend_j) opposite.
 struct SideStep {
     Point2 mid, rad;
 };
 
 std::array<SideStep, 3> steps_along(const PlanePiece& piece, Point2 rounding) {
-    std::array<SideStep, 3> found{};
+    const auto by_coordinate = [](double e, double own, double others) {
+        const double size = std::abs(own);
+        const double low = std::min(-size, others), high = std::max(size, others);
+        return std::pair(e + 2.0 * (low + high), 2.0 * (high - low));
+    };
+    std::array<SideStep, 3> found;
     for (std::size_t k = 0; k < 3; ++k) {
-        Point2 low = piece.along(k, AT_CORNERS[0]), high = low;
-        for (std::size_t m = 1; m < 3; ++m) {
-            const Point2 e = piece.along(k, AT_CORNERS[m]);
-            low = {std::min(low.x, e.x), std::min(low.y, e.y)};
-            high = {std::max(high.x, e.x), std::max(high.y, e.y)};
-        }
-        found[k] = {0.5 * (low + high), 0.5 * (high - low) + rounding};
+        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        const Point2 e = piece.uv[i] - piece.uv[k], own = piece.bend[k],
+                     others = piece.bend[i] - piece.bend[j];
+        const auto [u, off_u] = by_coordinate(e.x, own.x, others.x);
+        const auto [v, off_v] = by_coordinate(e.y, own.y, others.y);
+        found[k] = {{u, v}, {off_u + rounding.x, off_v + rounding.y}};
     }
     return found;
 }
 
 struct StepBalls {
     Steps mid, rad;
-
-    void set(Step step, std::size_t pair, Point2 middle, Point2 radius) {
-        mid.u[step][pair] = middle.x;
-        mid.v[step][pair] = middle.y;
-        rad.u[step][pair] = radius.x;
-        rad.v[step][pair] = radius.y;
-    }
 };
 
 StepBalls steps_of(const PlanePiece& piece) {
     Point2 rounding{0.0, 0.0};  // of sums that may cancel
     for (const Point2 bend : piece.bend) rounding = rounding + 0x1p-46 * sizes_of_vector(bend);
     const std::array<SideStep, 3> along = steps_along(piece, rounding);
+    std::array<Point2, 3> second;
+    for (std::size_t k = 0; k < 3; ++k) second[k] = piece.second(k, k);
     StepBalls found;
+    const auto set = [&found](Step step, std::size_t pair, Point2 mid, Point2 rad) {
+        found.mid.u[step][pair] = mid.x;
+        found.mid.v[step][pair] = mid.y;
+        found.rad.u[step][pair] = rad.x;
+        found.rad.v[step][pair] = rad.y;
+    };
     for (std::size_t p = 0; p < PAIRS; ++p) {
         const std::size_t k = FIRST[p], l = OTHER[p];
-        found.set(A, p, along[k].mid, along[k].rad);
-        found.set(B, p, along[l].mid, along[l].rad);
-        found.set(AA, p, piece.second(k, k), rounding);
-        found.set(BB, p, piece.second(l, l), rounding);
-        found.set(AB, p, piece.second(k, l), rounding);
+        set(A, p, along[k].mid, along[k].rad);
+        set(B, p, along[l].mid, along[l].rad);
+        set(AA, p, second[k], rounding);
+        set(BB, p, second[l], rounding);
+        set(AB, p, k == l ? second[k] : piece.second(k, l), rounding);
     }
     return found;
 }
@@ -164,16 +171,19 @@ DerivativeRows::DerivativeRows(const HighDerivatives& over) {
 FourthParts fourth_parts(const DerivativeRows& over, const PlanePiece& piece,
                          const Directions& axes) {
     const auto [mid, rad] = along_axes(over, piece, piece.is_straight() ? FOURTH : 0, axes);
-    FourthParts found{};
+    FourthParts found;
     double all = 0.0;
-    for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t d = 0; d < 3; ++d) {
+        ByPair part;
         for (std::size_t p = 0; p < PAIRS; ++p) {
-            const double part = (std::abs(mid[d][p]) + rad[d][p]) * ((1.0 + FOURTH_ROUNDING) / 6.0);
-            all += part;
-            double &one = found[d][FIRST[p]], &other = found[d][OTHER[p]];
-            one = std::max(one, part);
-            other = std::max(other, part);
+            part[p] = (std::abs(mid[d][p]) + rad[d][p]) * ((1.0 + FOURTH_ROUNDING) / 6.0);
+            all += part[p];
         }
+        const auto largest = [&part](std::size_t a, std::size_t b, std::size_t c) {
+            return std::max(std::max(part[a], part[b]), part[c]);
+        };
+        found[d] = {largest(0, 1, 2), largest(1, 3, 4), largest(2, 4, 5)};  // with each side
+    }
     return all < intervals::INFINITE ? found : UNKNOWN_PARTS;
 }
 

@@ -236,6 +236,14 @@ bool SmoothBounds::look_at(std::int32_t t, const DerivativeRows& over, bool is_l
     return bound(t, frame);
 }
 
+/// The slope of one cell.
+double steepest_of(const std::array<PlaceJet, 3>& corners, const FourthParts& rho,
+                   const TriangleFrame& frame) {
+    // as rows of the grid are: corner 0, corner 2, corner 1
+    const std::array<PlaceJet, 3> rows = {corners[0], corners[2], corners[1]};
+    return bounds_of_cells(rows, 1, rho, frame, CellPlaces::NONE, true).slope;
+}
+
 bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
     const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
     const FourthParts& rho = rho_[t];
@@ -260,14 +268,10 @@ bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
         return false;
     }
     const double limit = asked_.limits[t] - off;
-    // as rows of the grid are: corner 0, corner 2, corner 1
-    const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
-    const auto [bends, unknown, steepest] =
-        bounds_of_cells(rows, 1, rho, frame, CellPlaces::NONE, with_slope);
-    const PieceSize rises = size_from(bends, frame);
+    const PieceSize rises = size_from(bends_of_cell(corners, rho, false), frame);
     found.cell_height = rises.height;
     found.cell_whole = rises.whole;
-    found.slope = steepest;
+    found.slope = with_slope ? steepest_of(places, rho, frame) : NONE;
     // else places within say nothing more
     if (part <= limit && (found.whole > limit || is_loose(found.height, corners))) {
         const double high = height_at_places(corners, rho, frame, rises.height, found.whole);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "proof/crease_bends.hpp"
+#include "proof/distinct_places.hpp"
 #include "proof/grid_bounds.hpp"
 #include "proof/side_bends.hpp"
 #include "proof/smooth_bounds.hpp"
@@ -129,13 +130,13 @@ bool is_within(const TriangleBounds& bounds, RimSides rims, double limit, double
 SurfaceStatus corner_errors(const Surface& surface, std::span<const SpaceCorners> corners,
                             std::span<const PlaneCorners> uv, Array<double>& error) {
     const std::size_t count = corners.size();
-    Array<EnclosedPoint> found(3 * count);
-    const std::span<const Point2> places{uv.empty() ? nullptr : uv[0].data(), 3 * count};
-    const auto status = surface.enclose(places, {found.data(), found.size()});
+    const DistinctPlaces places({uv.empty() ? nullptr : uv[0].data(), 3 * count});
+    Array<EnclosedPoint> found(places.all().size());
+    const auto status = surface.enclose(places.all(), {found.data(), found.size()});
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t t = 0; t < count; ++t)
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto& [value, off] = found[3 * t + k];
+            const auto& [value, off] = found[places.at(3 * t + k)];
             // each coordinate is off: twice that covers their root sum of squares
             const double away = norm(corners[t][k] - value) * (1.0 + BOUND_ROUNDING) + 2.0 * off;
             error[t] = std::max(error[t], away <= intervals::INFINITE ? away : intervals::INFINITE);

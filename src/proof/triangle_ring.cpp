@@ -46,21 +46,25 @@ Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
     return found;
 }
 
-TriangleRing::TriangleRing(const ProofMesh& mesh, SideDistances& sides)
+TrianglesAtVertices::TrianglesAtVertices(std::span<const std::int32_t> vertices) {
+    std::int32_t count = 0;
+    for (const std::int32_t v : vertices) count = std::max(count, v + 1);
+    first_.resize(static_cast<std::size_t>(count) + 1, 0);
+    for (const std::int32_t v : vertices) ++first_[v + 1];
+    for (std::int32_t v = 0; v < count; ++v) first_[v + 1] += first_[v];
+    triangles_.resize(vertices.size());
+    Array<std::int32_t> next(first_);
+    for (std::size_t h = 0; h < vertices.size(); ++h)
+        triangles_[next[vertices[h]]++] = static_cast<std::int32_t>(h / 3);
+}
+
+TriangleRing::TriangleRing(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+                           SideDistances& sides)
     : mesh_(mesh),
+      at_vertices_(at_vertices),
       sides_(sides),
       mark_(mesh.corners.size(), -1),
-      is_turned_(mesh.corners.size(), 0) {
-    std::int32_t count = 0;
-    for (const std::int32_t v : mesh.vertices) count = std::max(count, v + 1);
-    first_.resize(static_cast<std::size_t>(count) + 1, 0);
-    for (const std::int32_t v : mesh.vertices) ++first_[v + 1];
-    for (std::int32_t v = 0; v < count; ++v) first_[v + 1] += first_[v];
-    at_vertex_.resize(mesh.vertices.size());
-    Array<std::int32_t> next(first_);
-    for (std::size_t h = 0; h < mesh.vertices.size(); ++h)
-        at_vertex_[next[mesh.vertices[h]]++] = static_cast<std::int32_t>(h / 3);
-}
+      is_turned_(mesh.corners.size(), 0) {}
 
 bool TriangleRing::take(std::int32_t other) {
     if (count_ == MOST) return false;
@@ -112,8 +116,7 @@ bool TriangleRing::add_layer() {
     for (std::size_t k = 0; k < 3 * before; ++k) {
         const std::int32_t member = members_[static_cast<std::ptrdiff_t>(k / 3)];
         const std::int32_t v = mesh_.vertices[3 * static_cast<std::size_t>(member) + k % 3];
-        for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {
-            const std::int32_t other = at_vertex_[i];
+        for (const std::int32_t other : at_vertices_[v]) {
             if (mark_[other] == t) continue;
             members_.push_back(other);
             if (!take(other)) return false;

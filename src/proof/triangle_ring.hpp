@@ -43,11 +43,26 @@ struct Neighbour {
 Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
                                       std::span<const std::int32_t> twins);
 
+/// The triangles at each vertex, as many rings ask for them.
+class TrianglesAtVertices {
+  public:
+    /// vertices (3 m,): of m triangles.
+    explicit TrianglesAtVertices(std::span<const std::int32_t> vertices);
+
+    [[nodiscard]] std::span<const std::int32_t> operator[](std::int32_t vertex) const {
+        return {triangles_.begin() + first_[vertex], triangles_.begin() + first_[vertex + 1]};
+    }
+
+  private:
+    Array<std::int32_t> first_, triangles_;  // one vertex after the other
+};
+
 class TriangleRing {
   public:
     static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 
-    TriangleRing(const ProofMesh& mesh, SideDistances& sides);
+    TriangleRing(const ProofMesh& mesh, const TrianglesAtVertices& at_vertices,
+                 SideDistances& sides);
 
     /// Begin anew with one triangle alone; false where no statement is made with it.
     bool begin(std::int32_t t);
@@ -81,9 +96,9 @@ class TriangleRing {
     [[nodiscard]] double shifted_sides(double little);
 
     ProofMesh mesh_;
+    const TrianglesAtVertices& at_vertices_;
     SideDistances& sides_;
-    Array<std::size_t> boundary_;            // half-edges of the ring, but for rims
-    Array<std::int32_t> first_, at_vertex_;  // triangles at each vertex, one after the other
+    Array<std::size_t> boundary_;  // half-edges of the ring, but for rims
     Array<std::int32_t> mark_, members_;
     Array<std::uint8_t> is_turned_;  // the normal, against that of the triangle
     std::array<Neighbour, MOST> ring_{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace surfmesh {
 namespace {
@@ -144,6 +145,20 @@ void Restriction::apply(Homogeneous* control, std::size_t stride) const {
         for (std::size_t r = taken + 1; r <= degree_; ++r) take_step(to_last_, r, work.data());
         control[(degree_ - taken) * stride] = work[degree_];
     }
+}
+
+/// Both begin with all steps but one to the end.
+std::array<Homogeneous, 2> Restriction::at_end(const Homogeneous* control, std::size_t stride,
+                                               bool at_last) const {
+    std::array<Homogeneous, HIGHEST_DEGREE + 1> points;  // NOLINT: as above
+    for (std::size_t j = 0; j <= degree_; ++j) points[j] = control[j * stride];
+    for (std::size_t r = 1; r < degree_; ++r)
+        take_step(at_last ? to_last_ : to_first_, r, points.data());
+    const Homogeneous last = points[degree_];
+    take_step(to_first_, degree_, points.data());
+    const Homogeneous first = std::exchange(points[degree_], last);
+    take_step(to_last_, degree_, points.data());
+    return {first, points[degree_]};
 }
 
 }  // namespace surfmesh

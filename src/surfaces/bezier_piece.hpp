@@ -46,6 +46,9 @@ class Restriction {
 
     /// Replace control points, ``stride`` apart, by the coefficients.
     void apply(Homogeneous* control, std::size_t stride) const;
+    /// The two coefficients at one end of the part alone, in their sequence, of a degree above 0.
+    [[nodiscard]] std::array<Homogeneous, 2> at_end(const Homogeneous* control, std::size_t stride,
+                                                    bool at_last) const;
 
   private:
     static constexpr std::size_t MOST = HIGHEST_DEGREE * (HIGHEST_DEGREE + 1) / 2;

@@ -216,9 +216,9 @@ std::int64_t SplineSurface::corner_of(const PartOfCell& part) const {
            static_cast<std::int64_t>(v_.degree());
 }
 
-/// Bezier coefficients over a part, about a point; the largest of what they are made of.
-double SplineSurface::coefficients(const PartOfCell& part, Point3 about,
-                                   Array<Homogeneous>& control) const {
+/// Control points of a part's spans, about a point; the largest of their numbers.
+double SplineSurface::controls_of(const PartOfCell& part, Point3 about,
+                                  Array<Homogeneous>& control) const {
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
     const bool rational = !weights_.empty();
     const std::int64_t corner = corner_of(part);
@@ -233,6 +233,14 @@ double SplineSurface::coefficients(const PartOfCell& part, Point3 about,
             largest = std::max(
                 {largest, std::abs(x.x), std::abs(x.y), std::abs(x.z), rational ? w : 0.0});
         }
+    return largest;
+}
+
+/// Bezier coefficients over a part, about a point; the largest of what they are made of.
+double SplineSurface::coefficients(const PartOfCell& part, Point3 about,
+                                   Array<Homogeneous>& control) const {
+    const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1;
+    const double largest = controls_of(part, about, control);
     const Restriction along_u(u_, part.u), along_v(v_, part.v);
     for (std::size_t j = 0; j < columns; ++j) along_u.apply(control.data() + j, columns);
     for (std::size_t i = 0; i < rows; ++i) along_v.apply(control.data() + i * columns, 1);

@@ -70,10 +70,14 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
                                         Work& work) const;
     [[nodiscard]] Point3 middle_of(const PartOfCell& part) const;
     [[nodiscard]] std::int64_t corner_of(const PartOfCell& part) const;
+    double controls_of(const PartOfCell& part, Point3 about, Array<Homogeneous>& control) const;
     double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control) const;
 
-    DerivativeBoxes boxes_of_part(const PartOfCell& part, const Directions& directions, int order,
-                                  const BezierCorner* corner, ThirdWork& work) const;
+    [[nodiscard]] DerivativeBoxes boxes_of_part(const PartOfCell& part,
+                                                const Directions& directions,
+                                                ThirdWork& work) const;
+    [[nodiscard]] TangentBoxes tangents_at(const PartOfCell& part, const BezierCorner& corner,
+                                           Array<Homogeneous>& control) const;
 
     SplineBasis u_, v_;
     std::int64_t columns_;

@@ -20,6 +20,6 @@ def twins_of(
 ) -> NDArray[np.int32]:
     """(3 count,) the opposite half-edge of each where two triangles share an edge, else -1."""
     twins = np.full(3 * count, -1, np.int32)
-    first, second = half_edges[uses == 2].T
+    first, second = half_edges.compress(uses == 2, axis=0).T
     twins[first], twins[second] = second, first
     return twins

@@ -55,7 +55,8 @@ def proved_distances(
         return FaceProof(moved.away, moved.away, moved.slope, True, None)
     core, gaps = as_core_surface(surface), gaps_of(surface, face)
     face = _with_rims(face, gaps.loose)
-    rims = np.packbits(face.twins.reshape(-1, 3) < 0, axis=1, bitorder="little")[:, 0]
+    is_rim = (face.twins < 0).view(np.uint8)
+    rims = (is_rim[0::3] | is_rim[1::3] << 1 | is_rim[2::3] << 2).astype(np.uint8, copy=False)
     bends, bounds = _bounds(core, face, limits, rims, slope)
     if bounds is None:
         return None

@@ -1,5 +1,8 @@
 """Proved bounds of offsets of surfaces and curves against samples of them."""
 
+import itertools
+
+import mpmath
 import numpy as np
 import pytest
 
@@ -237,3 +240,74 @@ def test_a_mild_offset_is_proved():
     found = proved_distances(surface, face, np.full(len(rows), limit))
     assert found is not None
     assert (found.bound <= limit).all()
+
+
+@pytest.mark.parametrize("degrees", [(1, 3), (3, 1), (2, 5), (6, 9)])
+@pytest.mark.parametrize("rational", [False, True])
+def test_how_far_corners_are_off_is_known_to_rounding(degrees, rational):
+    rng = np.random.default_rng(sum(degrees))
+    knots = [[0.0] * (p + 1) + [1.0, 2.0] + [3.0] * (p + 1) for p in degrees]
+    x, y = np.meshgrid(*(np.linspace(0.0, 4.0, p + 3) for p in degrees), indexing="ij")
+    control = np.stack([x, y, 0.2 * rng.normal(size=x.shape)], axis=-1)
+    weights = rng.uniform(0.7, 1.4, x.shape) if rational else None
+    basis = BSplineSurface(*knots, control, weights, domain=BOX)
+    uv = np.ascontiguousarray(rng.uniform(0.0, 3.0, (20, 3, 2)))
+    exact = exact_offsets(basis, 0.3, uv.reshape(-1, 2)).reshape(20, 3, 3)
+    moved = rng.normal(size=exact.shape)
+    moved *= 1e-6 / np.linalg.norm(moved, axis=2)[:, :, None]
+    found = bounds_of(OffsetSurface(basis, 0.3, domain=BOX), uv, exact + moved, 0)[:, CORNER]
+    assert (found >= 1e-6 - 1e-15).all()
+    assert (found <= 1e-6 + 1e-9).all()
+
+
+def exact_offsets(basis, distance, uv):
+    """Points at a distance from a spline, by its basis functions in 40 digits."""
+    with mpmath.workdps(40):
+        return np.array([_exact_offset(basis, distance, u, v) for u, v in uv.tolist()])
+
+
+def _exact_offset(basis, distance, u, v):
+    (p, q), weights = basis.degrees, basis.weights
+    along_u, along_v = (
+        [_functions(knots, degree, mpmath.mpf(t), order) for order in (0, 1)]
+        for knots, degree, t in ((basis.knots_u, p, u), (basis.knots_v, q, v))
+    )
+
+    def total(k, order_u, order_v):
+        return mpmath.fsum(
+            a * b * (1.0 if weights is None else float(weights[i, j]))
+            * (1.0 if k == 3 else float(basis.control[i, j, k]))
+            for i, a in enumerate(along_u[order_u])
+            for j, b in enumerate(along_v[order_v])
+        )  # fmt: skip
+
+    w = total(3, 0, 0)
+    r = [total(k, 0, 0) / w for k in range(3)]
+    r_u = [(total(k, 1, 0) - total(3, 1, 0) * r[k]) / w for k in range(3)]
+    r_v = [(total(k, 0, 1) - total(3, 0, 1) * r[k]) / w for k in range(3)]
+    normal = [r_u[k - 2] * r_v[k - 1] - r_u[k - 1] * r_v[k - 2] for k in range(3)]
+    size = mpmath.sqrt(mpmath.fsum(x * x for x in normal))
+    return [float(r[k] + distance * normal[k] / size) for k in range(3)]
+
+
+def _functions(knots, degree, t, order):
+    """All basis functions at t, or their first derivatives (Cox and de Boor)."""
+    knots = [mpmath.mpf(float(x)) for x in knots]
+    values = [mpmath.mpf(a <= t < b) for a, b in itertools.pairwise(knots)]
+    for p in range(1, degree + 1 - order):
+        values = [
+            sum(part * value / size for part, size, value in (
+                (t - knots[i], knots[i + p] - knots[i], values[i]),
+                (knots[i + p + 1] - t, knots[i + p + 1] - knots[i + 1], values[i + 1]),
+            ) if size)
+            for i in range(len(values) - 1)
+        ]  # fmt: skip
+    if order == 0:
+        return values
+    return [
+        degree * sum(sign * value / size for sign, size, value in (
+            (1, knots[i + degree] - knots[i], values[i]),
+            (-1, knots[i + degree + 1] - knots[i + 1], values[i + 1]),
+        ) if size)
+        for i in range(len(values) - 1)
+    ]  # fmt: skip

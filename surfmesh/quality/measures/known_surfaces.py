@@ -43,7 +43,7 @@ class KnownSurfaces:
 
     def uv(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 3, 2) parameters of the corners of some triangles."""
-        return self.corners.uv_points[self.corners.uv_triangles[triangles]]
+        return self.corners.uv_points.take(self.corners.uv_triangles.take(triangles, 0), 0)
 
     def middle_uv(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 2) the means of these."""
@@ -52,7 +52,7 @@ class KnownSurfaces:
 
     def points(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 3, 3) their corners."""
-        return self.mesh.points[self.mesh.triangles[triangles]]
+        return self.mesh.points.take(self.mesh.triangles.take(triangles, 0), 0)
 
     def samples(
         self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]

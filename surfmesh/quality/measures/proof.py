@@ -124,8 +124,8 @@ def _as_meshed(face: FaceTriangles) -> FaceTriangles:
 
     Their frames begin at the first side: so bounds are those that the mesher has seen.
     """
-    (au, av), (bu, bv) = ((face.uv[:, k] - face.uv[:, 0]).T for k in (1, 2))
-    if float((au * bv - av * bu).sum()) >= 0.0:
+    u, v = face.uv.transpose(2, 1, 0).copy()
+    if float(((u[1] - u[0]) * (v[2] - v[0]) - (v[1] - v[0]) * (u[2] - u[0])).sum()) >= 0.0:
         return face
     twins = face.twins.reshape(-1, 3)[:, ::-1].ravel()
     turned = 3 * (twins // 3) + 2 - twins % 3
