@@ -42,6 +42,11 @@ SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
 LOBE_SAMPLES, BRANCH_SAMPLES = 9, 33
+EVENLY = np.linspace(0.0, 1.0, BRANCH_SAMPLES)
+MOST_CLOSER, NEARLY = 8, 0.01
+"""How often the place where a branch leaves a circle is looked at more closely, at most; as near
+as this, of what is near, it is known."""
+
 MOST_CONTACTS = 200
 """Contacts that are looked at: more are a fault already, or far too many for one face."""
 
@@ -330,21 +335,30 @@ class _Loops:
         """Where a branch of a loop, on from the contact, is first so far from it (2,)."""
         curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
-            t = np.linspace(fraction, 1.0 if forward else 0.0, BRANCH_SAMPLES)
-            distance = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
-            if (distance >= radius).any():
-                k = int((distance >= radius).argmax())
-                low, high = t[max(k - 1, 0)], t[k]
-                for _ in range(40):
-                    middle = 0.5 * (low + high)
-                    at = self.curves[curve].evaluate(np.array([middle]))[0]
-                    if norm(at - centre) >= radius:
-                        high = middle
-                    else:
-                        low = middle
-                return self.curves[curve].evaluate(np.array([high]))[0]
+            found = self._leaving(curve, fraction, 1.0 if forward else 0.0, centre, radius)
+            if found is not None:
+                return found
             curve, fraction = self._following(curve, forward), 0.0 if forward else 1.0
         return None
+
+    def _leaving(
+        self, curve: int, start: float, end: float, centre: np.ndarray, radius: float
+    ) -> np.ndarray | None:
+        """Where a curve, between two fractions, is first so far from a centre (2,)."""
+        enough = NEARLY * self.near[curve]
+        for _ in range(MOST_CLOSER):
+            t = start + EVENLY * (end - start)
+            t[-1] = end
+            points = self.curves[curve].evaluate(t)
+            far = np.linalg.norm(points - centre, axis=1) >= radius
+            if not far.any():
+                return None
+            last = int(far.argmax())
+            first = max(last - 1, 0)
+            if norm(points[last] - points[first]) <= enough:
+                break
+            start, end = t[first], t[last]
+        return points[last]
 
     def _following(self, curve: int, forward: bool) -> int:
         """The next curve of its loop."""
