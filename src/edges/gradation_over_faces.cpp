@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at together
 constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
 constexpr double ROUNDING = 1e-12;  // relative: sizes that are told apart by less are the same
+constexpr double MARGIN = 1e-6;     // relative: sizes closer than this are compared in full
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
 constexpr std::size_t EDGES_A_BLOCK = 256, FACES_A_BLOCK = 64;
@@ -270,10 +271,23 @@ class GradationOverFaces {
             if (!may_lower(source, here)) continue;
             double least = size;
             for (std::size_t j = from.first; j + 1 < from.last; ++j)
-                least = std::min(least, grown_from(j, edges_.points[i]));
+                if (may_be_below(least, j, edges_.points[i]))
+                    least = std::min(least, grown_from(j, edges_.points[i]));
             if (least < (1.0 - CHANGE) * size && !lower(i, least)) return false;
         }
         return true;
+    }
+
+    /// May what grows to a point from the segment between samples j and j + 1 be less than a size?
+    /// Told by the box around the segment, without a root.
+    [[nodiscard]] bool may_be_below(double size, std::size_t j, Point3 point) const {
+        SampleBox segment, here;
+        segment.add(edges_.points[j]);
+        segment.add(edges_.points[j + 1]);
+        here.add(point);
+        const double smaller = std::min(sizes_.data()[j], sizes_.data()[j + 1]);
+        const double above = size - smaller + MARGIN * size;
+        return above > 0.0 && slope_ * slope_ * squared_way(segment, here) < above * above;
     }
 
     /// What grows to a point from the segment between samples j and j + 1.
