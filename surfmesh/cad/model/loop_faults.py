@@ -25,6 +25,7 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
+from surfmesh.geometry.planar.curve_circles import leaving
 from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
 from surfmesh.geometry.small_matrices import norm, product
 
@@ -42,10 +43,11 @@ SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
 LOBE_SAMPLES, BRANCH_SAMPLES = 9, 33
-EVENLY = np.linspace(0.0, 1.0, BRANCH_SAMPLES)
-MOST_CLOSER, NEARLY = 8, 0.01
-"""How often the place where a branch leaves a circle is looked at more closely, at most; as near
-as this, of what is near, it is known."""
+DOUBLINGS, MOST_RADII = 2.0 ** np.arange(8), 40
+"""Circles around a contact that branches are looked at on together, and in all."""
+
+NEARLY = 0.1
+"""Of what is near: so near is it known where a branch leaves a circle."""
 
 MOST_CONTACTS = 200
 """Contacts that are looked at: more are a fault already, or far too many for one face."""
@@ -312,53 +314,39 @@ class _Loops:
         centre = 0.5 * (first + second)
         near = max(self.near[one], self.near[other])
         radius = max(16.0 * near, 4.0 * self.tolerance[one], 4.0 * self.tolerance[other])
-        for _ in range(40):
-            branches = [
-                self._branch(contact, place, forward, centre, radius)
+        for _ in range(MOST_RADII // len(DOUBLINGS)):
+            radii = radius * DOUBLINGS
+            branches = np.array([
+                self._branch(contact, place, forward, centre, radii)
                 for place in (0, 1) for forward in (False, True)
-            ]  # fmt: skip
-            known = [branch for branch in branches if branch is not None]
-            if len(known) < len(branches):
-                return False
-            ways = np.array(known) - centre
-            apart = np.linalg.norm(ways[:2, None] - ways[None, 2:], axis=2).min()
-            if apart > 8.0 * near:
-                angle = np.arctan2(ways[:, 1], ways[:, 0])
-                turn = np.mod(angle - angle[0], 2.0 * np.pi)
-                return bool((turn[2] < turn[1]) != (turn[3] < turn[1]))
-            radius *= 2.0
+            ])  # fmt: skip
+            for ways in (branches - centre).transpose(1, 0, 2):
+                if np.isnan(ways).any():
+                    return False
+                apart = np.linalg.norm(ways[:2, None] - ways[None, 2:], axis=2).min()
+                if apart > 8.0 * near:
+                    angle = np.arctan2(ways[:, 1], ways[:, 0])
+                    turn = np.mod(angle - angle[0], 2.0 * np.pi)
+                    return bool((turn[2] < turn[1]) != (turn[3] < turn[1]))
+            radius = 2.0 * float(radii[-1])
         return False
 
     def _branch(
-        self, contact: Contact, place: int, forward: bool, centre: np.ndarray, radius: float
-    ) -> np.ndarray | None:
-        """Where a branch of a loop, on from the contact, is first so far from it (2,)."""
+        self, contact: Contact, place: int, forward: bool, centre: np.ndarray, radii: np.ndarray
+    ) -> np.ndarray:
+        """Where a branch of a loop, on from the contact, is first so far (r,) from it: (r, 2), nan
+        where it is nowhere."""
         curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
+        found = np.full((len(radii), 2), np.nan)
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
-            found = self._leaving(curve, fraction, 1.0 if forward else 0.0, centre, radius)
-            if found is not None:
-                return found
-            curve, fraction = self._following(curve, forward), 0.0 if forward else 1.0
-        return None
-
-    def _leaving(
-        self, curve: int, start: float, end: float, centre: np.ndarray, radius: float
-    ) -> np.ndarray | None:
-        """Where a curve, between two fractions, is first so far from a centre (2,)."""
-        enough = NEARLY * self.near[curve]
-        for _ in range(MOST_CLOSER):
-            t = start + EVENLY * (end - start)
-            t[-1] = end
-            points = self.curves[curve].evaluate(t)
-            far = np.linalg.norm(points - centre, axis=1) >= radius
-            if not far.any():
-                return None
-            last = int(far.argmax())
-            first = max(last - 1, 0)
-            if norm(points[last] - points[first]) <= enough:
+            left = np.isnan(found[:, 0])
+            if not left.any():
                 break
-            start, end = t[first], t[last]
-        return points[last]
+            end = 1.0 if forward else 0.0
+            enough = NEARLY * self.near[curve]
+            found[left] = leaving(self.curves[curve], fraction, end, centre, radii[left], enough)
+            curve, fraction = self._following(curve, forward), 1.0 - end
+        return found
 
     def _following(self, curve: int, forward: bool) -> int:
         """The next curve of its loop."""
