@@ -18,7 +18,6 @@ from surfmesh.cad.reading.collector import paused
 from surfmesh.cad.reading.lifeline import end_with
 from surfmesh.cad.reading.limits import MORE_MEMORY
 
-
 SELDOM = 100_000
 """New objects after which Python's collector looks for garbage."""
 
