@@ -10,9 +10,11 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at together
-constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
-constexpr double ROUNDING = 1e-12;  // relative: sizes that are told apart by less are the same
+constexpr std::size_t BLOCK = 8;       // segments of an edge that are looked at together
+constexpr double CHANGE = 1e-3;        // relative: a size is not lowered for less
+constexpr double ROUNDING = 1e-12;     // relative: sizes that are told apart by less are the same
+constexpr double MARGIN = 1.0 + 1e-6;  // of a bound: rounding does not reach so far
+constexpr double LESS = MARGIN * (1.0 - CHANGE);  // of a size: it is lowered to less alone
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
 constexpr std::size_t EDGES_A_BLOCK = 256, FACES_A_BLOCK = 64;
@@ -223,11 +225,11 @@ class GradationOverFaces {
         for (const std::int64_t from : own) {
             if (lowered_[from] < round) continue;
             const SampleRange& source = ranges_[static_cast<std::size_t>(from)];
-            if (!(source.smallest < coarsest)) continue;
+            const double above = LESS * coarsest - source.smallest;
+            if (!(above > 0.0)) continue;
             if (boxes.empty())
                 for (const std::int64_t edge : own)
                     boxes.add(ranges_[static_cast<std::size_t>(edge)].box);
-            const double above = coarsest - source.smallest;
             const Array<double>& ways = boxes.squared_ways(source.box);
             for (std::size_t k = 0; k < own.size(); ++k) {
                 if (!(slope_ * slope_ * ways.data()[k] < above * above)) continue;  // see may_lower
@@ -240,9 +242,8 @@ class GradationOverFaces {
 
     /// May sizes that grow from one range lower those of the other?
     [[nodiscard]] bool may_lower(const SampleRange& from, const SampleRange& to) const {
-        const double above = to.largest - from.smallest;
-        return above > CHANGE * to.largest &&
-               slope_ * slope_ * squared_way(from.box, to.box) < above * above;
+        const double above = LESS * to.largest - from.smallest;
+        return above > 0.0 && slope_ * slope_ * squared_way(from.box, to.box) < above * above;
     }
 
     /// Call lower(i, size) for samples of one edge that are coarser than what grows to them from
@@ -268,12 +269,26 @@ class GradationOverFaces {
             here.box.add(edges_.points[i]);
             here.add(size);
             if (!may_lower(source, here)) continue;
-            double least = size;
+            const double most = (1.0 - CHANGE) * size;
+            double least = most;
             for (std::size_t j = from.first; j + 1 < from.last; ++j)
-                least = std::min(least, grown_from(j, edges_.points[i]));
-            if (least < (1.0 - CHANGE) * size && !lower(i, least)) return false;
+                if (may_be_below(MARGIN * least, j, edges_.points[i]))
+                    least = std::min(least, grown_from(j, edges_.points[i]));
+            if (least < most && !lower(i, least)) return false;
         }
         return true;
+    }
+
+    /// May what grows to a point from the segment between samples j and j + 1 be less than a size?
+    /// Told by the box around the segment, without a root.
+    [[nodiscard]] bool may_be_below(double size, std::size_t j, Point3 point) const {
+        SampleBox segment, here;
+        segment.add(edges_.points[j]);
+        segment.add(edges_.points[j + 1]);
+        here.add(point);
+        const double smaller = std::min(sizes_.data()[j], sizes_.data()[j + 1]);
+        const double above = size - smaller;
+        return above > 0.0 && slope_ * slope_ * squared_way(segment, here) < above * above;
     }
 
     /// What grows to a point from the segment between samples j and j + 1.

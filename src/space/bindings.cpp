@@ -3,6 +3,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -14,6 +15,7 @@
 #include "space/graph_patches.hpp"
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
+#include "space/point_tree.hpp"
 #include "space/triangle_distance.hpp"
 #include "space/triangle_pairs.hpp"
 #include "space/triangle_planes.hpp"
@@ -313,6 +315,42 @@ void bind_distances(nb::module_& m) {
         "\n\npairs: (k, 2), things that belong together.");
 }
 
+void bind_nearest_points(nb::module_& m) {
+    nb::class_<PointTree>(m, "PointTree", "The points of a set that are nearest to places.")
+        .def(
+            "__init__",
+            [](PointTree* self, const Points3& points) {
+                if (points.shape(0) == 0) throw nb::value_error("there are no points");
+                const std::span<const double> numbers(points.data(), points.size());
+                if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }))
+                    throw nb::value_error("points are not finite");
+                new (self) PointTree(rows<Point3>(points));
+            },
+            nb::arg("points"), "points (n, 3), n > 0, finite: copied.")
+        .def(
+            "nearest",
+            [](const PointTree& tree, const Points3& places, std::size_t count) {
+                count = std::min(count, tree.size());
+                const std::size_t shape[] = {places.shape(0), count};
+                Array<double> distance(shape[0] * count);
+                Array<std::int32_t> number(shape[0] * count);
+                {
+                    const nb::gil_scoped_release released;
+                    nearest_points(tree, rows<Point3>(places), count,
+                                   {distance.data(), distance.size()},
+                                   {number.data(), number.size()});
+                }
+                return std::pair(nb::ndarray<nb::numpy, double, nb::ndim<2>>(
+                                     distance.data(), 2, shape, owner_of(distance)),
+                                 nb::ndarray<nb::numpy, std::int32_t, nb::ndim<2>>(
+                                     number.data(), 2, shape, owner_of(number)));
+            },
+            nb::arg("places"), nb::arg("count"),
+            "Distances (p, count) of the nearest points of places (p, 3), and their numbers (p, "
+            "count); the nearest first, of equally near ones the lower number. Fewer columns where "
+            "there are fewer points.");
+}
+
 }  // namespace
 
 void bind_space(nb::module_& m) {
@@ -322,6 +360,7 @@ void bind_space(nb::module_& m) {
     bind_edge_gaps(m);
     bind_shapes(m);
     bind_distances(m);
+    bind_nearest_points(m);
 }
 
 }  // namespace surfmesh::binding

@@ -111,4 +111,16 @@ std::size_t PointTree::nearest(Point3 place, std::span<NearPoint> near) const {
     return found;
 }
 
+void nearest_points(const PointTree& tree, std::span<const Point3> places, std::size_t count,
+                    std::span<double> distance, std::span<std::int32_t> number) {
+    Array<NearPoint> near(count);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        tree.nearest(places[i], {near.data(), count});
+        for (std::size_t k = 0; k < count; ++k) {
+            distance[i * count + k] = near[k].distance;
+            number[i * count + k] = near[k].number;
+        }
+    }
+}
+
 }  // namespace surfmesh

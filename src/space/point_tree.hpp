@@ -45,4 +45,9 @@ class PointTree {
     Array<Part> parts_;           // halves stand side by side
 };
 
+/// The ``count`` nearest points of each place, place by place; count <= tree.size(). distance,
+/// number: so many for each.
+void nearest_points(const PointTree& tree, std::span<const Point3> places, std::size_t count,
+                    std::span<double> distance, std::span<std::int32_t> number);
+
 }  // namespace surfmesh

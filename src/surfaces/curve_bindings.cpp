@@ -13,6 +13,7 @@
 #include "surfaces/elementary_curves.hpp"
 #include "surfaces/offset_curve.hpp"
 #include "surfaces/spline_curve.hpp"
+#include "surfaces/spline_through_points.hpp"
 #include "surfaces/vectors.hpp"
 
 namespace surfmesh::binding {
@@ -121,6 +122,24 @@ SharedCurve offset(const SharedCurve& curve, double distance,
         curve, distance, direction ? point(*direction) : Point3{0.0, 0.0, 0.0}, part);
 }
 
+std::pair<nb::ndarray<nb::numpy, double, nb::ndim<1>>, nb::ndarray<nb::numpy, double, nb::ndim<2>>>
+through_points(const Numbers& places, const Table& values, std::size_t degree) {
+    const auto at = numbers(places);
+    require_rows(values.shape(0), at.size(), "values");
+    if (degree % 2 == 0 || at.size() <= degree)
+        throw nb::value_error("a spline of odd degree goes through more points than its degree");
+    const auto rises = [](double a, double b) { return !(a < b); };
+    if (std::adjacent_find(at.begin(), at.end(), rises) != at.end())
+        throw nb::value_error("the places of a spline's points do not rise");
+    KnotsAndControl made;
+    {
+        const nb::gil_scoped_release released;
+        made = spline_through_points(at, {values.data(), values.size()}, values.shape(1), degree);
+    }
+    const std::size_t shape[] = {at.size(), values.shape(1)};
+    return {view(made.knots), {made.control.data(), 2, shape, owner_of(made.control)}};
+}
+
 void bind_basis(nb::module_& m) {
     using Basis = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
     m.def(
@@ -200,6 +219,11 @@ void bind_curves(nb::module_& m) {
           nb::arg("weights").none(), nb::arg("limits").none(), nb::arg("period"),
           "control (n, 2) or (n, 3); weights (n,) or None; limits: first and last parameter of the "
           "part in use, at whose ends the derivatives are those inside; period: 0 for none.");
+    m.def("spline_through_points", &through_points, nb::arg("places"), nb::arg("values"),
+          nb::arg("degree"),
+          "Knots (n + degree + 1,) and control points (n, d) of the spline of odd degree through "
+          "values (n, d) at places (n,) that rise, n > degree; no knot at the places next to its "
+          "ends.");
     m.def("offset_curve", &offset, nb::arg("curve"), nb::arg("distance"),
           nb::arg("direction").none(), nb::arg("limits").none(),
           "A curve beside another: c + distance m / |m| with m = c' x direction in space, "

@@ -91,3 +91,14 @@ def component_labels(count: int, pairs: Annotated[NDArray[numpy.int32], dict(sha
 
     pairs: (k, 2), things that belong together.
     """
+
+class PointTree:
+    """The points of a set that are nearest to places."""
+
+    def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
+        """points (n, 3), n > 0, finite: copied."""
+
+    def nearest(self, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+        """
+        Distances (p, count) of the nearest points of places (p, 3), and their numbers (p, count); the nearest first, of equally near ones the lower number. Fewer columns where there are fewer points.
+        """

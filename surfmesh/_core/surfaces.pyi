@@ -75,6 +75,11 @@ def spline_curve(knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), or
     control (n, 2) or (n, 3); weights (n,) or None; limits: first and last parameter of the part in use, at whose ends the derivatives are those inside; period: 0 for none.
     """
 
+def spline_through_points(places: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], degree: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+    """
+    Knots (n + degree + 1,) and control points (n, d) of the spline of odd degree through values (n, d) at places (n,) that rise, n > degree; no knot at the places next to its ends.
+    """
+
 def offset_curve(curve: Curve, distance: float, direction: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)] | None, limits: tuple[float, float] | None) -> Curve:
     """
     A curve beside another: c + distance m / |m| with m = c' x direction in space, (c'_y, -c'_x) in the plane, where direction is None.

@@ -8,7 +8,8 @@ surface_checks  what a surface over a rectangle is refused for, however its poin
 formulas        surfaces of formulas (parametric, kinks, interval)
 functions       surfaces of Python functions (numeric)
 cad_surfaces    curves and surfaces of CAD (all of it)
-planar          domains of the plane (planar_domain, curve_contacts, segment_distance)
+planar          domains of the plane (planar_domain, curve_contacts, curve_circles,
+                segment_distance)
 files           formula files and domain files (surface_file, formula_file, known_facts)
 differential    forms, curvatures, charts, sides, closest points (all of it)
 inside_loops    which points lie within loops, and how many loops lie around a loop

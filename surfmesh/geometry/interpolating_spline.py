@@ -1,8 +1,5 @@
-"""Splines through points, the same bits on every processor: LAPACK's banded solver is not.
-
-Interpolation matrices of B-splines are totally positive, so that elimination needs no pivots:
-de Boor and Pinkus, "Backward error analysis for totally positive linear systems", 1977.
-"""
+"""Splines through points as scipy's, made by the core: LAPACK's banded solver gives other bits on
+other processors (``src/surfaces/spline_through_points.hpp``)."""
 
 from __future__ import annotations
 
@@ -10,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from surfmesh._core.surfaces import spline_through_points
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -22,31 +21,4 @@ def interpolating_spline(
     knots of ``scipy.interpolate.make_interp_spline``: "not a knot" beside its ends."""
     from scipy.interpolate import BSpline  # heavy, and few need it
 
-    beside = (degree + 1) // 2
-    inner = places[beside:-beside]
-    ends = np.repeat(places[[0, -1]], degree + 1)
-    knots = np.concatenate([ends[: degree + 1], inner, ends[degree + 1 :]])
-    rows = BSpline.design_matrix(places, knots, degree)
-    count = len(places)
-    columns = rows.indices.reshape(count, degree + 1)
-    band = np.zeros((count, 2 * degree + 1))  # entry (i, j) at (i, j - i + degree)
-    line = np.arange(count)[:, None]
-    band[line, columns - line + degree] = rows.data.reshape(count, degree + 1)
-    return BSpline(knots, _solved(band, np.array(values, float), degree), degree)
-
-
-def _solved(band: NDArray[np.float64], right: NDArray[np.float64], width: int) -> NDArray:
-    """The solution (n, d) of a system with so many diagonals on either side; both are used up."""
-    count = len(band)
-    for j in range(count):
-        for i in range(j + 1, min(j + width + 1, count)):
-            start = j - i + width
-            factor = band[i, start] / band[j, width]
-            if factor != 0.0:
-                band[i, start : start + width + 1] -= factor * band[j, width:]
-                right[i] -= factor * right[j]
-    for j in range(count - 1, -1, -1):
-        after = right[j + 1 : j + 1 + width]
-        known = band[j, width + 1 : width + 1 + len(after)]
-        right[j] = (right[j] - (known[:, None] * after).sum(axis=0)) / band[j, width]
-    return right
+    return BSpline(*spline_through_points(places, values, degree), degree)

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import cadquery as cq
 import pytest
 
 import surfmesh
@@ -41,6 +42,20 @@ def test_a_mesh_imports_what_its_surface_needs(what, not_needed):
     code = f"import sys, surfmesh as sm; sm.mesh({what}, 0.5)\n"
     code += f"print([m for m in {not_needed.split()} if m in sys.modules])"
     assert run(code) == "[]"
+
+
+def test_sheets_are_read_meshed_and_judged_without_scipy(tmp_path):
+    sides = cq.Workplane().box(1, 1, 1).faces(">Z or >X").vals()
+    cq.exporters.export(cq.Workplane(cq.Compound.makeCompound(sides)), str(tmp_path / "open.step"))
+    code = f"import sys, surfmesh as sm; model = sm.load({str(tmp_path / 'open.step')!r})\n"
+    code += "print(len(sm.check(sm.mesh(model, 0.3)).problems), 'scipy' in sys.modules)"
+    assert run(code) == "0 False"
+
+
+def test_p_curves_are_made_anew_without_scipy():
+    code = "import sys, numpy as np, surfmesh.cad.model.pcurves as pcurves\n"
+    code += "pcurves.spline_through_points(np.arange(5.0), np.ones((5, 2)), 3)\n"
+    assert run(code + "print('scipy' in sys.modules)") == "False"
 
 
 def test_a_mesh_and_its_report_need_no_viewer():

@@ -7,7 +7,7 @@ ends are the caller's. Locations are applied by the caller, through OCP.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -231,13 +231,14 @@ def _polygon(curve: Any) -> tuple[np.ndarray, np.ndarray | None]:
 # --------------------------------------------------------------------------- knot sequences
 
 
-def _unrolled(sequence: Sequence[float], degree: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _unrolled(sequence: Any, degree: int, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Flat knots, and which control point belongs to each of their functions.
 
     A periodic sequence goes on beyond its ends, and has more functions than control points:
     these come round again.
     """
-    knots = np.array(list(sequence))
+    at = range(sequence.Lower(), sequence.Upper() + 1)
+    knots = np.array([sequence(i) for i in at])  # to iterate over it takes twenty times as long
     return knots, np.arange(len(knots) - degree - 1) % count
 
 

@@ -25,6 +25,7 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
+from surfmesh.geometry.planar.curve_circles import leaving
 from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
 from surfmesh.geometry.small_matrices import norm, product
 
@@ -42,6 +43,12 @@ SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
 LOBE_SAMPLES, BRANCH_SAMPLES = 9, 33
+DOUBLINGS, MOST_RADII = 2.0 ** np.arange(8), 40
+"""Circles around a contact that branches are looked at on together, and in all."""
+
+NEARLY = 0.1
+"""Of what is near: so near is it known where a branch leaves a circle."""
+
 MOST_CONTACTS = 200
 """Contacts that are looked at: more are a fault already, or far too many for one face."""
 
@@ -307,44 +314,39 @@ class _Loops:
         centre = 0.5 * (first + second)
         near = max(self.near[one], self.near[other])
         radius = max(16.0 * near, 4.0 * self.tolerance[one], 4.0 * self.tolerance[other])
-        for _ in range(40):
-            branches = [
-                self._branch(contact, place, forward, centre, radius)
+        for _ in range(MOST_RADII // len(DOUBLINGS)):
+            radii = radius * DOUBLINGS
+            branches = np.array([
+                self._branch(contact, place, forward, centre, radii)
                 for place in (0, 1) for forward in (False, True)
-            ]  # fmt: skip
-            known = [branch for branch in branches if branch is not None]
-            if len(known) < len(branches):
-                return False
-            ways = np.array(known) - centre
-            apart = np.linalg.norm(ways[:2, None] - ways[None, 2:], axis=2).min()
-            if apart > 8.0 * near:
-                angle = np.arctan2(ways[:, 1], ways[:, 0])
-                turn = np.mod(angle - angle[0], 2.0 * np.pi)
-                return bool((turn[2] < turn[1]) != (turn[3] < turn[1]))
-            radius *= 2.0
+            ])  # fmt: skip
+            for ways in (branches - centre).transpose(1, 0, 2):
+                if np.isnan(ways).any():
+                    return False
+                apart = np.linalg.norm(ways[:2, None] - ways[None, 2:], axis=2).min()
+                if apart > 8.0 * near:
+                    angle = np.arctan2(ways[:, 1], ways[:, 0])
+                    turn = np.mod(angle - angle[0], 2.0 * np.pi)
+                    return bool((turn[2] < turn[1]) != (turn[3] < turn[1]))
+            radius = 2.0 * float(radii[-1])
         return False
 
     def _branch(
-        self, contact: Contact, place: int, forward: bool, centre: np.ndarray, radius: float
-    ) -> np.ndarray | None:
-        """Where a branch of a loop, on from the contact, is first so far from it (2,)."""
+        self, contact: Contact, place: int, forward: bool, centre: np.ndarray, radii: np.ndarray
+    ) -> np.ndarray:
+        """Where a branch of a loop, on from the contact, is first so far (r,) from it: (r, 2), nan
+        where it is nowhere."""
         curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
+        found = np.full((len(radii), 2), np.nan)
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
-            t = np.linspace(fraction, 1.0 if forward else 0.0, BRANCH_SAMPLES)
-            distance = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
-            if (distance >= radius).any():
-                k = int((distance >= radius).argmax())
-                low, high = t[max(k - 1, 0)], t[k]
-                for _ in range(40):
-                    middle = 0.5 * (low + high)
-                    at = self.curves[curve].evaluate(np.array([middle]))[0]
-                    if norm(at - centre) >= radius:
-                        high = middle
-                    else:
-                        low = middle
-                return self.curves[curve].evaluate(np.array([high]))[0]
-            curve, fraction = self._following(curve, forward), 0.0 if forward else 1.0
-        return None
+            left = np.isnan(found[:, 0])
+            if not left.any():
+                break
+            end = 1.0 if forward else 0.0
+            enough = NEARLY * self.near[curve]
+            found[left] = leaving(self.curves[curve], fraction, end, centre, radii[left], enough)
+            curve, fraction = self._following(curve, forward), 1.0 - end
+        return found
 
     def _following(self, curve: int, forward: bool) -> int:
         """The next curve of its loop."""

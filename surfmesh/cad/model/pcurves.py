@@ -11,11 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfmesh._core.surfaces import spline_through_points
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.invariants import ENDS
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.geometry.interpolating_spline import interpolating_spline
 from surfmesh.geometry.surface import Surface
 
 SPANS = (32, 128, 512)  # of the new p-curve, the first that is good enough
@@ -39,8 +39,7 @@ def follows(
         uv, _ = _closest(surface, edge, coedge, fraction)
         uv[[0, -1]] = uv[0] + (ends - ends[0]) if is_loop else ends
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
-        spline = interpolating_spline(parameters, uv, 3)
-        trial = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
+        trial = replace(coedge, pcurve=BSplineCurve(*spline_through_points(parameters, uv, 3)))
         between = np.sort(np.concatenate([fraction[:-1] + at / spans for at in BETWEEN]))
         trial_deviation = _deviation(surface, edge, trial, between)
         if best is coedge:

@@ -18,6 +18,9 @@ from surfmesh.cad.reading.collector import paused
 from surfmesh.cad.reading.lifeline import end_with
 from surfmesh.cad.reading.limits import MORE_MEMORY
 
+SELDOM = 100_000
+"""New objects after which Python's collector looks for garbage."""
+
 
 def main() -> None:
     """Whatever happens in Python ends as a message; what happens in OCP may end the process.
@@ -49,6 +52,7 @@ def answer_to(wanted: dict[str, Any], load_ocp: Callable[[], None]) -> Any:
 
     def impose_limits() -> None:
         gc.freeze()  # what has been loaded stays, and need not be looked through
+        gc.set_threshold(SELDOM)  # a model's objects stay, too
         Limits(wanted["seconds"], wanted["megabytes"]).impose()
 
     try:

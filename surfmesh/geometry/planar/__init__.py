@@ -11,4 +11,5 @@ planar_domain: outer loops, holes, islands, constraint lines and points of the p
 domain_faces: the regions into which the segments divide the plane, as polygons.
 segment_distance: the exact distance to segments in space; a point is a segment without length.
 curve_contacts: where curves come together, decided on the curves and not on polygons of them.
+curve_circles: where a curve leaves circles around a place.
 """

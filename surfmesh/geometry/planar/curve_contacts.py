@@ -200,8 +200,9 @@ def _halved(
         np.concatenate([pieces.middle[whole], halves.middle]),
     )
     first, second = child[place[:, 0]], child[place[:, 1]]
-    both = np.stack([first[:, [0, 0, 1, 1]], second[:, [0, 1, 0, 1]]], axis=2).reshape(-1, 2)
-    return fresh, np.unique(both, axis=0)
+    count = len(fresh.curve)
+    both = np.unique(first[:, [0, 0, 1, 1]] * count + second[:, [0, 1, 0, 1]])
+    return fresh, np.stack(np.divmod(both, count), axis=1)
 
 
 def _rows(pieces: _Pieces, pairs: np.ndarray, near: np.ndarray) -> np.ndarray:
@@ -278,12 +279,13 @@ def _clustered(rows: np.ndarray) -> list[Contact]:
     rows = rows[np.lexsort((rows[:, 4], rows[:, 2], rows[:, 1], rows[:, 0]))]
     groups: list[list[float]] = []
     for row in rows.tolist():
-        group = next((g for g in reversed(groups[-RECENT:]) if _goes_on(g, row)), None)
-        if group is None:
-            groups.append(row)
+        for group in reversed(groups[-RECENT:]):
+            if _goes_on(group, row):
+                for k, choice in ((2, min), (3, max), (4, min), (5, max), (6, max)):
+                    group[k] = choice(group[k], row[k])
+                break
         else:
-            for k, choice in ((2, min), (3, max), (4, min), (5, max), (6, max)):
-                group[k] = choice(group[k], row[k])
+            groups.append(row)
     return [
         Contact((int(g[0]), int(g[1])), ((g[2], g[3]), (g[4], g[5])), bool(g[6])) for g in groups
     ]
@@ -291,6 +293,9 @@ def _clustered(rows: np.ndarray) -> list[Contact]:
 
 def _goes_on(group: list[float], row: list[float]) -> bool:
     """Are both of the same curves, and next to each other on both?"""
-    return group[:2] == row[:2] and all(
-        row[k] <= group[k + 1] + 1e-12 and row[k + 1] >= group[k] - 1e-12 for k in (2, 4)
+    one, other, a0, a1, b0, b1, _ = group
+    return (
+        (one == row[0] and other == row[1])
+        and (row[2] <= a1 + 1e-12 and row[3] >= a0 - 1e-12)
+        and (row[4] <= b1 + 1e-12 and row[5] >= b0 - 1e-12)
     )

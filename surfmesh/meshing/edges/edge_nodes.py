@@ -280,10 +280,7 @@ def _cut(
 def _numbered(model: CadModel, cuts: _Cuts, before: CutEdges | None) -> CutEdges:
     """What has not changed keeps its nodes, others get new numbers."""
     edges, count = cuts.edges, np.diff(cuts.first)
-    changed = np.ones(len(edges), bool)
-    if before:
-        bounds = zip(edges.tolist(), pairwise(cuts.first.tolist()))
-        changed[:] = [not _is_same(before[edge], cuts, a, b) for edge, (a, b) in bounds]
+    changed = ~_unchanged(cuts, before) if before else np.ones(len(edges), bool)
     numbers = np.empty(len(cuts.t), np.int64)
     ends = np.stack([cuts.first[:-1], cuts.first[1:] - 1], axis=1)
     is_new = np.repeat(changed, count)
@@ -301,11 +298,13 @@ def _numbered(model: CadModel, cuts: _Cuts, before: CutEdges | None) -> CutEdges
     return CutEdges(offsets(every), EdgeNodes(cuts.t, cuts.points, numbers, cuts.sizes), made)
 
 
-def _is_same(nodes: EdgeNodes | None, cuts: _Cuts, first: int, last: int) -> bool:
-    """Are the places and the sizes equal to the last bit?"""
-    return (
-        nodes is not None
-        and len(nodes.t) == last - first
-        and np.array_equal(nodes.t, cuts.t[first:last])
-        and np.array_equal(nodes.sizes, cuts.sizes[first:last])
-    )
+def _unchanged(cuts: _Cuts, before: CutEdges) -> np.ndarray:
+    """Of the cut edges (k,): are their places and sizes those of before to the last bit?"""
+    count = np.diff(cuts.first)
+    found = np.diff(before.first)[cuts.edges] == count
+    if not found.any():
+        return found
+    old, new = rows_of(before.first, cuts.edges[found]), np.repeat(found, count)
+    same = (before.rows.t[old] == cuts.t[new]) & (before.rows.sizes[old] == cuts.sizes[new])
+    found[found] = np.logical_and.reduceat(same, offsets(count[found])[:-1])
+    return found

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from surfmesh._core.space import PointTree
 from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.geometry.differential.projection import closest_point
@@ -41,11 +42,10 @@ class AcrossTo:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) -> (n,), infinite where the faces touch."""
-        tree, uv = self._tree
-        guess = uv[tree.query(points)[1]]
+        guess = self._samples[0][self._tree.nearest(points, 1)[1][:, 0]]
         foot, away, _ = closest_point(self.face.surface, points, guess, PROJECTIONS)
         gap = np.where(is_inside(self._rings, foot), away, np.inf)
-        gap = np.minimum(gap, self._edges.query(points)[0])
+        gap = np.minimum(gap, self._edges.nearest(points, 1)[0][:, 0])
         return np.where(gap < self.ignored, np.inf, np.maximum(self.fraction * gap, self.least))
 
     @cached_property
@@ -53,22 +53,23 @@ class AcrossTo:
         return boundary_polygons(self.face)
 
     @cached_property
-    def _tree(self) -> tuple:
-        from scipy.spatial import cKDTree
-
+    def _samples(self) -> tuple[np.ndarray, np.ndarray]:
+        """All over the face: places (n, 2), points (n, 3)."""
         uv = np.concatenate([inner_samples(self.face, GRID), *self._rings])
-        return cKDTree(self.face.surface.evaluate(uv, 0)[0]), uv
+        return uv, self.face.surface.evaluate(uv, 0)[0]
 
     @cached_property
-    def _edges(self):
-        from scipy.spatial import cKDTree
+    def _tree(self) -> PointTree:
+        return PointTree(self._samples[1])
 
-        return cKDTree(self.face.surface.evaluate(np.concatenate(self._rings), 0)[0])
+    @cached_property
+    def _edges(self) -> PointTree:
+        return PointTree(self.face.surface.evaluate(np.concatenate(self._rings), 0)[0])
 
     @cached_property
     def box(self) -> tuple[np.ndarray, np.ndarray]:
         """Corners (3,), (3,) around the face's samples."""
-        points = self._tree[0].data
+        _, points = self._samples
         return points.min(axis=0), points.max(axis=0)
 
     def __getstate__(self) -> dict:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfmesh._core.insertion import coincident_nodes
+from surfmesh._core.space import PointTree
 from surfmesh.geometry.inside_loops import nesting_depth
 from surfmesh.geometry.small_matrices import product
 from surfmesh.meshing.boundary.untangling import meeting_pairs
@@ -35,9 +36,7 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     if not len(bad):
         bad = np.flatnonzero(np.isin(loop, _misplaced(uv, segments, loop)))
     if not len(bad):
-        from scipy.spatial import cKDTree
-
-        near = cKDTree(points).query(job.surface.evaluate(where, 0)[0])[1]
+        _, near = PointTree(points).nearest(job.surface.evaluate(where, 0)[0], 1)
         bad = np.flatnonzero(np.isin(segments, near).any(axis=1))
     start, end = points[segments[bad]].transpose(1, 0, 2)
     length = np.linalg.norm(end - start, axis=1)

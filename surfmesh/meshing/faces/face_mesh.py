@@ -15,6 +15,7 @@ import numpy as np
 
 from surfmesh._core import faces as core
 from surfmesh._core.faces import FaceEnd, FacePolygons, coarse_segments, may_have_tubes
+from surfmesh._core.space import PointTree
 from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.core_surface import as_core_surface
@@ -306,9 +307,8 @@ def _directions(points: np.ndarray) -> np.ndarray:
 
 
 def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    from scipy.spatial import cKDTree
-
-    return cKDTree(points).query(wanted)[1]
+    """Rows (k,) of the points (n, 3) that are nearest to wanted ones (k, 3)."""
+    return np.asarray(PointTree(points).nearest(wanted, 1)[1])[:, 0]
 
 
 def _polygons(job: FaceJob, field: SizeField) -> FacePolygons:

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfmesh._core.space import PointTree
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -126,15 +127,13 @@ def _rings(job: FaceJob) -> list[tuple[np.ndarray, ...]]:
 
 def _facing(job: FaceJob, other: FaceJob, width: float) -> tuple[dict, dict, bool] | None:
     """Which slot faces which, uv of the other by uv of the first, and whether loops run back."""
-    from scipy.spatial import cKDTree
-
     rings, others = _rings(job), _rings(other)
     numbers, points = (np.concatenate([ring[k] for ring in others]) for k in (0, 2))
     mine = np.concatenate([ring[0] for ring in rings])
-    away, near = cKDTree(points).query(np.concatenate([ring[2] for ring in rings]))
+    away, near = PointTree(points).nearest(np.concatenate([ring[2] for ring in rings]), 1)
     if len(mine) != len(numbers) or not away.max() <= math.sqrt(2.0) * width:
         return None
-    mate = dict(zip(mine.tolist(), numbers[near].tolist()))
+    mate = dict(zip(mine.tolist(), numbers[near[:, 0]].tolist()))
     if len(set(mate.values())) < len(mate):
         return None
     slots: dict[int, int] = {}

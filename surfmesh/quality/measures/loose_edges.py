@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.space import PointTree
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.penetration import distances_allowed, edge_sagittas
 from surfmesh.quality.measures.places import Point, as_point
@@ -68,13 +69,11 @@ def _nearest(
 ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """How far the nearest free edge of another face lies from the middle of each (k,), infinite
     where none is near, and which that is (k,)."""
-    from scipy.spatial import cKDTree
-
     ends = mesh.points[mesh.edges[free]]
     places = ends[:, 0, None] + PLACES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
     middle = ends.mean(axis=1)
     count = min(NEAREST, places.shape[0] * len(PLACES))
-    place = cKDTree(places.reshape(-1, 3)).query(middle, count)[1].reshape(len(free), count)
+    _, place = PointTree(places.reshape(-1, 3)).nearest(middle, count)
     other = place // len(PLACES)
     a, b = ends[other].transpose(2, 0, 1, 3)
     way = b - a

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.space import PointTree
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
@@ -68,14 +69,12 @@ def true_depth_of_faces(
 
     allowed: (m,) as deep as facets may lie within others.
     """
-    from scipy.spatial import cKDTree
-
     mesh, beside = known.mesh, solids_beside(known.mesh)
     rows = [np.flatnonzero(bounds_solid(mesh, solid)) for solid in solids]
     middles = [mesh.points[mesh.triangles[own]].mean(axis=1) for own in rows]
     best = NOWHERE
     for k in (0, 1):
-        tree = cKDTree(middles[1 - k])
+        tree = PointTree(middles[1 - k])
         low, high = (bound(middles[1 - k], axis=0) for bound in (np.min, np.max))
         margin = float((high - low).max()) / 2.0  # triangles of the other may be large
         near = ((middles[k] >= low - margin) & (middles[k] <= high + margin)).all(axis=1)
@@ -83,8 +82,8 @@ def true_depth_of_faces(
         if not len(own):
             continue
         count = min(NEAREST, len(rows[1 - k]))
-        place = tree.query(mesh.points[mesh.triangles[own]].mean(axis=1), count)[1]
-        base = rows[1 - k][place.reshape(len(own), count)].ravel()
+        _, place = tree.nearest(mesh.points[mesh.triangles[own]].mean(axis=1), count)
+        base = rows[1 - k][place].ravel()
         own = np.repeat(own, count)
         outward = [
             np.where(beside[t, 0] == solids[i], 1.0, -1.0) for t, i in ((own, k), (base, 1 - k))

@@ -9,13 +9,13 @@ be excluded.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.quality import TriangleStars, hidden_bounds
-from surfmesh._core.space import triangle_planes
+from surfmesh._core.space import PointTree, triangle_planes
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
@@ -233,15 +233,13 @@ class _Around:
         self.used = np.unique(mesh.triangles)
 
     @cached_property
-    def _tree(self) -> Any:
-        from scipy.spatial import cKDTree
-
-        return cKDTree(self.mesh.points[self.used])
+    def _tree(self) -> PointTree:
+        return PointTree(self.mesh.points[self.used])
 
     def deviation(self, piece: NDArray, point: NDArray) -> NDArray[np.float64]:
         """Distance (n,) of points (n, 3) from the triangles around those of ``piece`` (n,)."""
         count = min(NEAREST, len(self.used))
-        _, nearest = self._tree.query(point, k=[*range(1, count + 1)])
+        _, nearest = self._tree.nearest(point, count)
         own = self.mesh.triangles[self.triangles[piece]]
         return self.stars.distances_from_stars(
             point, np.concatenate([own, self.used[nearest]], axis=1)

@@ -6,6 +6,7 @@ there the source asks for the smallest size on that piece of the surface.
 
 import numpy as np
 
+from surfmesh._core.space import PointTree
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.sizing import Sizing
@@ -37,11 +38,9 @@ def small_sizes(
             np.meshgrid(np.linspace(u0, u1, GUESSES), np.linspace(v0, v1, GUESSES)), axis=-1
         ).reshape(-1, 2)
         (points,) = surface.evaluate(grid, 0)
-        from scipy.spatial import cKDTree
-
-        tree = cKDTree(points)
+        tree = PointTree(points)
         for source in marked:
-            guess = grid[tree.query(source.marks)[1]]
+            guess = grid[tree.nearest(source.marks, 1)[1][:, 0]]
             uv, _, foot = closest_point(surface, source.marks, guess, PROJECTIONS, 0.0)
             asked = source(foot)
             there = np.isfinite(asked)
