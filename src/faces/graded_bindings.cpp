@@ -59,9 +59,6 @@ void bind_asked_sizes(nb::module_& m) {
 
 void bind_graded(nb::module_& m) {
     bind_asked_sizes(m);
-    m.attr("CELLS_OF_PIECE") = CELLS_OF_PIECE;
-    m.attr("FEWEST_CELLS") = FEWEST_CELLS;
-    m.attr("MOST_CELLS") = MOST_CELLS;
     nb::class_<GradedFace>(m, "GradedFace",
                            "A face whose sizes follow from its curvature and its edges.")
         .def(

@@ -68,8 +68,7 @@ bool has_repeated_nodes(const FaceBoundary& b) {
 FieldPlan plan_of(const GradedFace& face, const Chart& chart, const CoincidentSides& sides) {
     const FaceBoundary& b = *face.boundary;
     const Point2 extent = chart.extent();
-    const int cells = std::clamp(std::min(face.surface.pieces, MOST_CELLS) * CELLS_OF_PIECE,
-                                 FEWEST_CELLS, MOST_CELLS);
+    const int cells = root_cells_of_face(face.surface.pieces);
     const RootGrid grid = root_grid(extent, cells);
     const Array<Point2> places = chart.to_plane({b.uv.data(), b.uv.size()});
     return {grid,

@@ -13,9 +13,6 @@
 
 namespace surfmesh {
 
-/// Cells that the search for sizes on a face starts from: of a smooth piece; at least, at most.
-inline constexpr int CELLS_OF_PIECE = 16, FEWEST_CELLS = 64, MOST_CELLS = 2304;
-
 /// What is known of the surface of a face before it is sampled.
 struct KnownSurface {
     std::shared_ptr<const Surface> of_face;   // over the domain of the face

@@ -168,6 +168,8 @@ void construct_builder(FieldBuilder* builder, std::pair<std::int32_t, std::int32
 }
 
 void bind_field_plan(nb::module_& m) {
+    m.def("root_cells_of_face", &root_cells_of_face, nb::arg("pieces"),
+          "About how many cells the search starts with on a face of so many smooth pieces.");
     m.def(
         "root_grid",
         [](std::pair<double, double> extent, int cells) {

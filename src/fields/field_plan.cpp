@@ -6,6 +6,8 @@
 namespace surfmesh {
 namespace {
 
+constexpr int CELLS_OF_PIECE = 16, FEWEST_CELLS = 64, MOST_CELLS = 2304;  // of a face
+
 constexpr int LONGEST_ROW = 2048;  // root cells along the longer side of a narrow plane, at most
 
 /// A whole number between two, of a number of any size.
@@ -31,6 +33,10 @@ std::int64_t halvings(double width, double size) {
 }
 
 }  // namespace
+
+int root_cells_of_face(int pieces) {
+    return std::clamp(std::min(pieces, MOST_CELLS) * CELLS_OF_PIECE, FEWEST_CELLS, MOST_CELLS);
+}
 
 RootGrid root_grid(Point2 extent, int cells) {
     const double longest = std::max(extent.x, extent.y), shortest = std::min(extent.x, extent.y);

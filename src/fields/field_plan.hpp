@@ -9,6 +9,9 @@
 
 namespace surfmesh {
 
+/// How many root cells a face of a CAD model has, which is smooth between the knots of its splines.
+[[nodiscard]] int root_cells_of_face(int pieces);
+
 /// About so many cells, as near to squares as they can be: a cell keeps its shape when it is split,
 /// long ones would have to become far too narrow. A narrow plane has a long row of them.
 [[nodiscard]] RootGrid root_grid(Point2 extent, int cells);

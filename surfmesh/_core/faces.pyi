@@ -222,12 +222,6 @@ class AskedSizes:
         Model units and degrees; at least one of chord, angle and size is there. is_curved: chord is that of quadratic triangles. is_width: it is that of the whole band that a triangle needs. slope: growth of the size per length. default_angle: of neighbours' normals, where a chord alone is asked for. default_largest: size, as a fraction of the diagonal, where none is stated.
         """
 
-CELLS_OF_PIECE: int = 16
-
-FEWEST_CELLS: int = 64
-
-MOST_CELLS: int = 2304
-
 class GradedFace:
     """A face whose sizes follow from its curvature and its edges."""
 

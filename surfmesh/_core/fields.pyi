@@ -139,6 +139,11 @@ def patch_errors(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), 
     metric_root (nodes, 3): A = H^-1. step (cells, 2): width and height. largest: size above which none counts.
     """
 
+def root_cells_of_face(pieces: int) -> int:
+    """
+    About how many cells the search starts with on a face of so many smooth pieces.
+    """
+
 def root_grid(extent: tuple[float, float], cells: int) -> tuple[int, int]:
     """
     How many cells along x and y: about so many, as near to squares as they can be.

@@ -18,6 +18,7 @@ from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.infinite_speed import STRAIGHT, BentAxes, bent_axes_of, is_bent
 from surfmesh.geometry.surface import Domain, Surface, smooth_pieces, steady_axes
 
+
 @dataclass(frozen=True)
 class Chart:
     """Coordinates of one surface: its (u, v) and the scaled plane (x, y), axis by axis."""

@@ -1,8 +1,8 @@
 """Ordinary faces, which the core meshes one after the other without the interpreter.
 
 jobs -> faces of the core, most work first -> FaceQueue of the core -> rows of arrays -> face meshes
-                                                 |
-                                                 +-> what is out of the ordinary goes on in face_mesh.py
+                                                  |
+                what is out of the ordinary <-----+  goes on in face_mesh.py
 """
 
 from collections.abc import Iterable, Sequence

@@ -1,8 +1,8 @@
 """Faces whose sizes the core finds from their curvature and their edges: all but planes and
 cylinders, see ``src/faces/graded_face.hpp``.
 
-Left to ``face_mesh.py``: poles, sizes that depend on the direction or that a law gives, what earlier
-rounds ask for, and triangles that are to be proved.
+Left to ``face_mesh.py``: poles, sizes that depend on the direction or that a law gives, what
+earlier rounds ask for, and triangles that are to be proved.
 """
 
 from surfmesh._core.faces import AskedSizes, FaceManner, GradedFace

@@ -10,7 +10,6 @@ import numpy as np
 import surfmesh._core.fields as core
 from surfmesh._core import elementary_functions
 from surfmesh._core import sizing as core_sizing
-from surfmesh._core.faces import CELLS_OF_PIECE, FEWEST_CELLS, MOST_CELLS
 from surfmesh._core.fields import Background
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
@@ -50,7 +49,7 @@ class FieldBuilder:
         width, height = self.chart.extent.tolist()
         roots = ROOT_CELLS
         if isinstance(surface, FaceSurface):
-            roots = min(max(CELLS_OF_PIECE * surface.pieces, FEWEST_CELLS), MOST_CELLS)
+            roots = core.root_cells_of_face(surface.pieces)
         grid = nx, ny = core.root_grid((width, height), roots)
         self.core = core.FieldBuilder(
             grid=grid,

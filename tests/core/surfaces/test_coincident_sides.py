@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.naive import coincident_sides as naive
 
 import surfmesh as sm
 from surfmesh._core.surfaces import SAME_SIDE, CallbackSurface, coincident_sides
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.files.formula_file import gallery, load_formula_file
+from tests.naive import coincident_sides as naive
 
 
 @pytest.mark.parametrize("name", gallery())

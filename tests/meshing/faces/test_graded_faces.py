@@ -3,7 +3,6 @@
 import cadquery as cq
 import numpy as np
 import pytest
-from tests.meshing.faces.test_face_queue import jobs_of, require_same, worked
 
 import surfmesh as sm
 from surfmesh._core import faces as core
@@ -12,6 +11,7 @@ from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.graded_faces import GradedFaces, asked_sizes
 from surfmesh.sizing.rules.size_limits import SizeLimits
+from tests.meshing.faces.test_face_queue import jobs_of, require_same, worked
 
 
 def loft():
@@ -73,7 +73,7 @@ def test_nearly_all_kinds_are_meshed_without_python(monkeypatch):
 
 def test_what_the_core_does_not_know_is_left():
     jobs = jobs_of(loft(), 0.3)
-    number, job = next((k, j) for k, j in enumerate(jobs) if j.surface.kind == "bspline")
+    job = next(j for j in jobs if j.surface.kind == "bspline")
     assert GradedFaces().face(job) is not None
     limits = SizeLimits(np.zeros((1, 3)), np.ones(1), 0.2)
     laws = sm.Sizing(size=lambda points: np.full(len(points), 0.3))

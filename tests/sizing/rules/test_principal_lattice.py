@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from tests.naive import principal_lattice as naive
-
 import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
 from surfmesh.geometry.files.formula_file import gallery, load_formula_file
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.rules.curvature_size import chord_size, lattice_chord_size
 from surfmesh.sizing.rules.principal_lattice import keeps_lattice
+from tests.naive import principal_lattice as naive
 
 # a cylinder whose lines u = constant wind around it
 SHEARED = sm.ParametricSurface(
