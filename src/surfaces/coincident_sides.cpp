@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "surfaces/box_diagonal.hpp"
@@ -53,8 +54,10 @@ double farthest(std::span<const Point3> one, std::span<const Point3> other, bool
     double most = 0.0;
     for (std::size_t k = 0; k < one.size(); ++k) {
         const Point3 d = one[k] - other[backwards ? other.size() - 1 - k : k];
-        for (const double x : {d.x, d.y, d.z})
-            if (!(std::abs(x) <= most)) most = std::abs(x);  // no number is farther than any
+        for (const double x : {d.x, d.y, d.z}) {
+            if (std::isnan(x)) return std::numeric_limits<double>::infinity();
+            most = std::max(most, std::abs(x));
+        }
     }
     return most;
 }

@@ -35,3 +35,19 @@ def test_rounding_says_how_near_sides_are_one():
     assert find_sides(tube).partner == (-1, -1, -1, -1)
     found = coincident_sides(tube.core, [0.0, 1e-5, 0.0, 1e-5])
     assert found[1] == [-1, 3, -1, 1]
+
+
+class Holed:
+    """A tube that is no number at a few places of one of the sides that would be joined."""
+
+    domain = ((0.0, 2.0 * np.pi), (0.0, 1.0))
+
+    def evaluate(self, uv, order=0):
+        u, v = np.asarray(uv).T
+        r = np.stack([np.cos(u), np.sin(u), np.where((u == 0.0) & (v < 0.3), np.nan, v)], axis=1)
+        return (r,)
+
+
+def test_no_number_is_near_nothing():
+    collapsed, partner, _ = coincident_sides(CallbackSurface(Holed()), [0.0] * 4)
+    assert partner == [-1, -1, -1, -1] and not any(collapsed)
