@@ -56,12 +56,13 @@ class GradedFaces:
 
 def asked_sizes(sizing: Sizing) -> AskedSizes | None:
     """The same as the core has it; None where only Python knows what is asked for."""
-    if sizing.is_anisotropic or sizing.has_law or sizing.proof:
+    size = sizing.size
+    if sizing.is_anisotropic or sizing.has_law or sizing.proof or callable(size):
         return None
-    if sizing.chord is None and sizing.angle is None and sizing.size is None:
+    if sizing.chord is None and sizing.angle is None and size is None:
         return None
     return AskedSizes(
-        chord=sizing.chord, angle=sizing.angle, size=sizing.size, min_size=sizing.min_size,
+        chord=sizing.chord, angle=sizing.angle, size=size, min_size=sizing.min_size,
         max_size=sizing.max_size, is_curved=sizing.is_curved, is_width=sizing.is_balanced,
         slope=sizing.gradient, default_angle=DEFAULT_ANGLE, default_largest=DEFAULT_MAX_SIZE,
     )  # fmt: skip
