@@ -10,8 +10,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr int GRID = 9;        // places along u and along v
-constexpr double STEP = 1e-4;  // of the domain, of differences
+constexpr int GRID = 9;             // places along u and along v
+constexpr double SIDE_STEP = 1e-4;  // of the domain, of differences
 constexpr std::size_t PLACES = GRID * GRID;
 
 // Radians: over half the diagonal of the surface. It costs 1 % of the chord on cylinders.
@@ -31,8 +31,8 @@ using Around = std::array<T, BESIDE.size()>;
 
 /// Derivatives of a field in fractions of the domain, along a step.
 double change(const Around<double>& field, Point2 step) {
-    const double by_u = (field[1] - field[2]) / (2.0 * STEP);
-    const double by_v = (field[3] - field[4]) / (2.0 * STEP);
+    const double by_u = (field[1] - field[2]) / (2.0 * SIDE_STEP);
+    const double by_v = (field[3] - field[4]) / (2.0 * SIDE_STEP);
     return by_u * step.x + by_v * step.y;
 }
 
@@ -51,8 +51,8 @@ Array<Point2> places_over(const ParameterBox& box) {
     for (int row = 0; row < GRID; ++row)
         for (int column = 0; column < GRID; ++column)
             for (const Point2 beside : BESIDE)
-                uv.push_back({box.low.x + ((column + 0.5) / GRID + STEP * beside.x) * wide.x,
-                              box.low.y + ((row + 0.5) / GRID + STEP * beside.y) * wide.y});
+                uv.push_back({box.low.x + ((column + 0.5) / GRID + SIDE_STEP * beside.x) * wide.x,
+                              box.low.y + ((row + 0.5) / GRID + SIDE_STEP * beside.y) * wide.y});
     return uv;
 }
 

@@ -10,23 +10,23 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t SAMPLES = 65;  // on a side; uneven, so that symmetry fools nobody
-constexpr int COARSE = 8;            // steps of the grid that shows how large the surface is
+constexpr std::size_t SAMPLES_OF_SIDE = 65;  // on a side; uneven, so that symmetry fools nobody
+constexpr int COARSE = 8;  // steps of the grid that shows how large the surface is
 
 // Opposite sides first: where several sides coincide, that is what is meant.
 constexpr std::pair<std::size_t, std::size_t> PAIRS[] = {{1, 3}, {0, 2}, {0, 1},
                                                          {1, 2}, {2, 3}, {0, 3}};
 
 /// Uneven parameters in [0, 1], symmetric under t -> 1 - t, both ends included.
-std::array<double, SAMPLES> uneven_samples() {
-    constexpr std::size_t HALF = (SAMPLES - 1) / 2;
+std::array<double, SAMPLES_OF_SIDE> uneven_samples() {
+    constexpr std::size_t HALF = (SAMPLES_OF_SIDE - 1) / 2;
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    std::array<double, SAMPLES> t{};
+    std::array<double, SAMPLES_OF_SIDE> t{};
     for (std::size_t k = 1; k < HALF; ++k)
         t[k] = 0.5 * std::fmod(static_cast<double>(k) * golden, 1.0);
     std::sort(t.begin() + 1, t.begin() + HALF);
     t[HALF] = 0.5;
-    for (std::size_t k = 0; k < HALF; ++k) t[SAMPLES - 1 - k] = 1.0 - t[k];
+    for (std::size_t k = 0; k < HALF; ++k) t[SAMPLES_OF_SIDE - 1 - k] = 1.0 - t[k];
     return t;
 }
 
@@ -79,7 +79,7 @@ CoincidentSides coincident_sides(SurfaceReader& surface, const std::array<double
     std::array<std::span<const Point3>, 4> curve;
     for (std::size_t side = 0; side < 4; ++side) {
         near[side] = whole * std::max(SAME_SIDE, rounding[side]);
-        curve[side] = cloud.subspan(cloud.size() - (4 - side) * SAMPLES, SAMPLES);
+        curve[side] = cloud.subspan(cloud.size() - (4 - side) * SAMPLES_OF_SIDE, SAMPLES_OF_SIDE);
         found.collapsed[side] = box_diagonal(curve[side]) <= near[side];
     }
     for (const auto& [first, second] : PAIRS) {
