@@ -49,7 +49,7 @@ struct EdgeRuns {
 
 constexpr std::int64_t RUN = 8;
 
-constexpr std::size_t EDGES_AT_ONCE = 64, FACES_AT_ONCE = 16;  // that a thread takes
+constexpr std::size_t EDGES_AT_ONCE = 64;  // that a thread takes
 
 EdgeRuns runs_of_edges(const SampledEdges& sampled) {
     const std::size_t count = sampled.first.size() - 1;
@@ -183,7 +183,6 @@ FacesOfEdges faces_of_edges(const SampledEdges& sampled) {
 /// longest axis of the face, and those that are long themselves.
 class NearEdges {
   public:
-    NearEdges() = default;
     NearEdges(const SampledEdges& sampled, const Array<Box3>& boxes, std::int64_t face)
         : first_(sampled.first_of_face[face]), end_(sampled.first_of_face[face + 1]) {
         if (end_ - first_ < FEW || !choose_axis(sampled, boxes)) return;
@@ -246,7 +245,7 @@ class NearEdges {
         return extent_ > 0.0 && std::isfinite(extent_);
     }
 
-    std::int64_t first_ = 0, end_ = 0;
+    std::int64_t first_, end_;
     int axis_ = 0;
     double extent_ = 0.0, longest_ = 0.0;
     Array<Begin> begins_;       // in their order along the axis
@@ -271,11 +270,10 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
     EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), runs.of_edges};
     const Array<double> farthest = farthest_of_edges(sampled);
     const FacesOfEdges uses = faces_of_edges(sampled);
-    std::vector<NearEdges> near(sampled.first_of_face.size() - 1);
-    for_each_block(near.size(), FACES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t face = begin; face < end; ++face)
-            near[face] = NearEdges(sampled, found.boxes, static_cast<std::int64_t>(face));
-    });
+    std::vector<NearEdges> near;
+    near.reserve(sampled.first_of_face.size());
+    for (std::size_t face = 0; face + 1 < sampled.first_of_face.size(); ++face)
+        near.emplace_back(sampled, found.boxes, static_cast<std::int64_t>(face));
     for_each_block(farthest.size(), EDGES_AT_ONCE, [&](std::size_t begin, std::size_t end) {
         Array<std::int64_t> rows;
         for (std::size_t a = begin; a < end; ++a)
