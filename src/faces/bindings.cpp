@@ -17,6 +17,7 @@ namespace surfmesh::binding {
 
 void bind_boundaries(nb::module_& m);
 void bind_joining(nb::module_& m);
+void bind_graded(nb::module_& m);
 
 namespace {
 
@@ -157,7 +158,7 @@ FinishedFaces finished(FaceQueue& queue, std::int64_t triangles) {
         return queue.work(triangles, [&] { return calls.run([] {}); });
     }();
     calls.finish();
-    for (const auto& [face, other] : made.others) raise_if_failed(*queue.face(face).surface, other);
+    for (const auto& [face, other] : made.others) raise_if_failed(queue.surface_of(face), other);
     return made;
 }
 
@@ -181,6 +182,23 @@ void bind_rows(nb::module_& m) {
     bind_array(c, "uv", &FaceRows::uv, "(k, 2) of the corners");
 }
 
+std::vector<QueuedFace> queued(const std::vector<nb::object>& faces) {
+    std::vector<QueuedFace> copies;
+    copies.reserve(faces.size());
+    for (const nb::object& face : faces) {
+        InwardFace* inward = nullptr;
+        GradedFace* graded = nullptr;
+        if (face.is_none()) throw nb::type_error("None is no face");
+        if (nb::try_cast(face, inward))
+            copies.emplace_back(*inward);
+        else if (nb::try_cast(face, graded))
+            copies.emplace_back(*graded);
+        else
+            throw nb::type_error("a face is an InwardFace or a GradedFace");
+    }
+    return copies;
+}
+
 void bind_queue(nb::module_& m) {
     bind_rows(m);
     nb::class_<FinishedFaces>(m, "FinishedFaces", "Faces that a call of ``FaceQueue.work`` meshed.")
@@ -201,16 +219,11 @@ void bind_queue(nb::module_& m) {
                           "Faces that any threads mesh one after the other, in their order.")
         .def(
             "__init__",
-            [](FaceQueue* made, const std::vector<const InwardFace*>& faces) {
-                std::vector<InwardFace> copies;
-                copies.reserve(faces.size());
-                for (const InwardFace* face : faces) {
-                    if (face == nullptr) throw nb::type_error("None is no face");
-                    copies.push_back(*face);
-                }
-                new (made) FaceQueue(std::move(copies));
+            [](FaceQueue* made, const std::vector<nb::object>& faces) {
+                new (made) FaceQueue(queued(faces));
             },
-            nb::arg("faces"))
+            nb::arg("faces"),
+            nb::sig("def __init__(self, faces: Sequence[InwardFace | GradedFace]) -> None"))
         .def("work", &finished, nb::arg("triangles"),
              "Mesh faces that nobody has begun, without the interpreter, until so many triangles "
              "are made; nothing when none is left.")
@@ -260,6 +273,7 @@ void bind_faces(nb::module_& m) {
     bind_ends(m);
     bind_manner(m);
     bind_inward(m);
+    bind_graded(m);
     bind_queue(m);
     bind_joining(m);
     bind_work(m);

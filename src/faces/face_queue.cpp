@@ -25,6 +25,11 @@ bool is_plain(const FaceMesh& made) {
            !made.patch.mapped.seamless.triangles.empty();
 }
 
+FaceMesh mesh_queued(const QueuedFace& face, const PatchHooks& hooks) {
+    if (const auto* graded = std::get_if<GradedFace>(&face)) return mesh_graded(*graded, hooks);
+    return mesh_inward(std::get<InwardFace>(face), hooks);
+}
+
 }  // namespace
 
 void FaceRows::append(std::int64_t number, FaceMesh made) {
@@ -41,6 +46,12 @@ void FaceRows::append(std::int64_t number, FaceMesh made) {
     corner_end.push_back(static_cast<std::int64_t>(uv.size()));
 }
 
+const Surface& FaceQueue::surface_of(std::int64_t number) const {
+    const QueuedFace& face = faces_[static_cast<std::size_t>(number)];
+    if (const auto* graded = std::get_if<GradedFace>(&face)) return *graded->surface.over_box;
+    return *std::get<InwardFace>(face).surface;
+}
+
 FinishedFaces FaceQueue::work(std::int64_t triangles, const std::function<bool()>& goes_on) {
     const auto is_wanted = [&] { return !stopped_ && goes_on(); };
     const PatchHooks hooks{
@@ -53,7 +64,7 @@ FinishedFaces FaceQueue::work(std::int64_t triangles, const std::function<bool()
     while (left > 0 && !stopped_) {
         const std::size_t number = begun_++;
         if (number >= faces_.size()) break;
-        FaceMesh made = mesh_inward(faces_[number], hooks);
+        FaceMesh made = mesh_queued(faces_[number], hooks);
         if (made.end == FaceEnd::patch_failed && made.patch.end == PatchEnd::cancelled) {
             stop();
             break;

@@ -1,6 +1,7 @@
 // Faces of a model meshed one after the other, by as many threads as call for work.
 //
-// In: faces whose sizes grow inward from their edges, in the order in which they are to be begun.
+// In: faces whose sizes grow inward from their edges, or follow from their curvature too, in the order
+// in which they are to be begun.
 // Out, of each call of ``work``: the faces that it has finished; those that ask for nothing in rows
 // of one array each, any other as it is, for whoever knows the exceptional ways and the words. The
 // mesh of a face does not depend on who makes it, or when.
@@ -8,9 +9,10 @@
 
 #include <atomic>
 #include <functional>
+#include <variant>
 #include <vector>
 
-#include "faces/face_mesh.hpp"
+#include "faces/graded_face.hpp"
 
 namespace surfmesh {
 
@@ -40,21 +42,23 @@ struct FinishedFaces {
     [[nodiscard]] bool empty() const { return rows.face.empty() && others.empty(); }
 };
 
+/// A face that the core meshes by itself.
+using QueuedFace = std::variant<InwardFace, GradedFace>;
+
 class FaceQueue {
   public:
-    explicit FaceQueue(std::vector<InwardFace> faces) : faces_(std::move(faces)) {}
+    explicit FaceQueue(std::vector<QueuedFace> faces) : faces_(std::move(faces)) {}
 
     /// Mesh faces that nobody has begun, until so many triangles are made or none is left.
     /// ``goes_on`` is asked now and then within a face; where it says no, all work ends.
     [[nodiscard]] FinishedFaces work(std::int64_t triangles, const std::function<bool()>& goes_on);
     /// No face is begun any more; those that are under way are not finished.
     void stop() { stopped_ = true; }
-    [[nodiscard]] const InwardFace& face(std::int64_t number) const {
-        return faces_[static_cast<std::size_t>(number)];
-    }
+    /// That of a face, over whatever box.
+    [[nodiscard]] const Surface& surface_of(std::int64_t number) const;
 
   private:
-    const std::vector<InwardFace> faces_;
+    const std::vector<QueuedFace> faces_;
     std::atomic<std::size_t> begun_ = 0;
     std::atomic<bool> stopped_ = false;
 };

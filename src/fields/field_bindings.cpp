@@ -11,10 +11,14 @@
 #include "fields/field_builder.hpp"
 #include "fields/field_node_arrays.hpp"
 #include "fields/field_outcome_tuple.hpp"
+#include "fields/field_plan.hpp"
 
 namespace surfmesh::binding {
 
 void bind_field_builder(nb::module_& m);
+
+template <>
+struct Row<SmallSource> : RowOf<std::int64_t, 3> {};
 
 namespace {
 
@@ -163,9 +167,43 @@ void construct_builder(FieldBuilder* builder, std::pair<std::int32_t, std::int32
     new (builder) FieldBuilder(std::move(plan));
 }
 
+void bind_field_plan(nb::module_& m) {
+    m.def("root_cells_of_face", &root_cells_of_face, nb::arg("pieces"),
+          "About how many cells the search starts with on a face of so many smooth pieces.");
+    m.def(
+        "root_grid",
+        [](std::pair<double, double> extent, int cells) {
+            if (!(extent.first > 0.0 && extent.second > 0.0) || cells < 16)
+                throw nb::value_error("there is no plane, or fewer than 16 cells");
+            const RootGrid grid = root_grid({extent.first, extent.second}, cells);
+            return std::pair(grid.nx, grid.ny);
+        },
+        nb::arg("extent"), nb::arg("cells"),
+        "How many cells along x and y: about so many, as near to squares as they can be.");
+    m.def(
+        "small_sources",
+        [](const Points2& places, const Vector<double>& sizes,
+           std::pair<std::int32_t, std::int32_t> grid, std::pair<double, double> extent) {
+            require_rows(sizes.shape(0), places.shape(0), "sizes");
+            if (grid.first < 1 || grid.second < 1 || !(extent.first > 0.0 && extent.second > 0.0))
+                throw nb::value_error("there is no grid, or no plane");
+            for (const Point2 p : rows<Point2>(places))
+                if (!std::isfinite(p.x) || !std::isfinite(p.y))
+                    throw nb::value_error("a place is not finite");
+            const Array<SmallSource> found =
+                small_sources(rows<Point2>(places), rows<double>(sizes), {grid.first, grid.second},
+                              {extent.first, extent.second});
+            return view(found);
+        },
+        nb::arg("places"), nb::arg("sizes"), nb::arg("grid"), nb::arg("extent"),
+        "x, y on the grid of GRID_DEPTH of places (n, 2) in the scaled plane, and how deep the "
+        "cell there shall be for sizes (n,): (n, 3) int64.");
+}
+
 }  // namespace
 
 void bind_field_builder(nb::module_& m) {
+    bind_field_plan(m);
     m.attr("GRID_DEPTH") = GRID_DEPTH;
     nb::class_<NodeLaw>(m, "NodeLaw", "What sizes are asked for at the nodes of a field.");
     nb::class_<HiddenFeatures>(m, "HiddenFeatures",

@@ -75,8 +75,41 @@ class SegmentClearing {
     std::int64_t removed_ = 0;
 };
 
+/// Alpha of the triangles inside, 1 of the others; and where bad ones may be, so that few are gone
+/// through in search of them.
+class TriangleShapes {
+  public:
+    explicit TriangleShapes(const Triangulation& t)
+        : shape_(Array<double>::unfilled(t.region.size())), may_be_bad_(shape_.size() / GROUP + 1) {
+        for_each_block(shape_.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+                set(k, t.region[k] == INSIDE ? triangle_shape(t.xy, t.size, t.tri[3 * k],
+                                                              t.tri[3 * k + 1], t.tri[3 * k + 2])
+                                             : 1.0);
+        });
+    }
+    [[nodiscard]] double operator[](Triangle k) const { return shape_[k]; }
+    [[nodiscard]] bool is_bad(Triangle k) const { return shape_[k] < BAD_SHAPE; }
+    void set(Triangle k, double shape) {
+        shape_[k] = shape;
+        if (shape < BAD_SHAPE) may_be_bad_[k / GROUP] = 1;
+    }
+    /// The first bad triangle from k on, or how many there are.
+    [[nodiscard]] Triangle next_bad(Triangle k) const {
+        const auto end = static_cast<Triangle>(shape_.size());
+        while (k < end && !is_bad(k)) k = may_be_bad_[k / GROUP] ? k + 1 : (k / GROUP + 1) * GROUP;
+        return std::min(k, end);
+    }
+
+  private:
+    static constexpr Triangle GROUP = 64;
+    static_assert(BLOCK % GROUP == 0);  // a group is set by one thread
+    Array<double> shape_;
+    Array<std::uint8_t> may_be_bad_;  // of each group of triangles
+};
+
 /// Swap the edge of e, and note the new shapes, if that betters the worse of its two triangles.
-bool swap_if_better(Triangulation& t, HalfEdge e, Array<double>& shape) {
+bool swap_if_better(Triangulation& t, HalfEdge e, TriangleShapes& shape) {
     const HalfEdge f = t.adj[e];
     const Vertex a = t.tri[e], b = t.tri[f];
     const Vertex c = t.tri[prev_half_edge(e)], d = t.tri[prev_half_edge(f)];
@@ -86,8 +119,8 @@ bool swap_if_better(Triangulation& t, HalfEdge e, Array<double>& shape) {
     const double second = triangle_shape(t.xy, t.size, b, c, d);
     if (!(std::min(first, second) > old + BETTER_BY) || !is_convex(t, e)) return false;
     swap_edge(t, e);
-    shape[e / 3] = first;
-    shape[f / 3] = second;
+    shape.set(e / 3, first);
+    shape.set(f / 3, second);
     return true;
 }
 
@@ -113,19 +146,13 @@ Cleared clear_boundary(Triangulation& t, std::span<const Segment> segments, Arra
 }
 
 std::int64_t swap_bad(Triangulation& t) {
-    Array<double> shape(t.region.size(), 1.0);
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
-        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-            if (t.region[k] == INSIDE)
-                shape[k] =
-                    triangle_shape(t.xy, t.size, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
-    });
+    TriangleShapes shapes(t);
     std::int64_t total = 0;
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         std::int64_t swaps = 0;
-        for (Triangle k = 0; k < t.triangles(); ++k)
-            for (HalfEdge e = 3 * k; shape[k] < BAD_SHAPE && e < 3 * k + 3; ++e)
-                if (t.fixed[e] == 0 && swap_if_better(t, e, shape)) ++swaps;
+        for (Triangle k = shapes.next_bad(0); k < t.triangles(); k = shapes.next_bad(k + 1))
+            for (HalfEdge e = 3 * k; shapes.is_bad(k) && e < 3 * k + 3; ++e)
+                if (t.fixed[e] == 0 && swap_if_better(t, e, shapes)) ++swaps;
         total += swaps;
         if (swaps == 0) break;
     }

@@ -1,5 +1,7 @@
 #include "optimisation/surface_frames.hpp"
 
+#include "values/first_touch.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -79,18 +81,13 @@ ShapeParts shape_parts(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
 
 SurfaceFrames::SurfaceFrames(std::size_t vertices, bool anisotropic, std::size_t room)
     : is_anisotropic(anisotropic) {
-    reserve(std::max(vertices, room));
-    resize(vertices);
-}
-
-void SurfaceFrames::reserve(std::size_t room) {
-    point.reserve(room);
-    tangent_map.reserve(room);
-    normal.reserve(room);
-    size.reserve(room);
-    scale.reserve(room);
-    drift.reserve(room);
-    if (is_anisotropic) metric_root.reserve(room);
+    point = filled_by_threads(vertices, Point3{}, room);
+    tangent_map = filled_by_threads(vertices, TangentMap{}, room);
+    normal = filled_by_threads(vertices, Point3{}, room);
+    size = filled_by_threads(vertices, 0.0, room);
+    scale = filled_by_threads(vertices, 1.0, room);
+    drift = filled_by_threads(vertices, 0.0, room);
+    if (is_anisotropic) metric_root = filled_by_threads(vertices, MetricRoot3{}, room);
 }
 
 void SurfaceFrames::resize(std::size_t vertices) {

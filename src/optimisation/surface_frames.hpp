@@ -55,9 +55,6 @@ struct SurfaceFrames {
 
     /// Room for vertices up to number ``vertices``; a new one has scale 1 and no frame yet.
     void resize(std::size_t vertices);
-
-  private:
-    void reserve(std::size_t room);
 };
 
 /// r, r_x and r_y: a point of the surface, and its derivatives by the coordinates of the plane.

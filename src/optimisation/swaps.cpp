@@ -6,6 +6,7 @@
 #include "optimisation/regular_degrees.hpp"
 #include "triangulation/local_operations.hpp"
 #include "triangulation/parts.hpp"
+#include "values/first_touch.hpp"
 
 namespace surfmesh {
 namespace {
@@ -183,6 +184,7 @@ struct DegreeSwaps {
 /// Measure the triangles with a dirty corner anew.
 void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const Stars* stars,
                    const VertexMarks& marks, Array<double>& shape) {
+    if (shape.empty()) shape = filled_by_threads(t.region.size(), 1.0);
     shape.resize(t.region.size(), 1.0);
     const Array<Triangle> dirty = triangles_at(t, stars, marks.dirty);
     for_each_block(dirty.size(), SWAPS_TOGETHER, [&](std::size_t first, std::size_t last) {

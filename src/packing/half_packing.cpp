@@ -1,8 +1,10 @@
 #include "packing/half_packing.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "packing/front_moves.hpp"
+#include "values/first_touch.hpp"
 
 namespace surfmesh {
 namespace {
@@ -56,24 +58,50 @@ struct Renumbering {
     [[nodiscard]] HalfEdge half_edge(HalfEdge e) const { return 3 * triangle(e / 3) + e % 3; }
 };
 
-/// Copy what is kept; ``to`` may be ``from`` where numbers become smaller.
-void copy(const Packing& from, const Renumbering& number, Packing& to) {
+/// What is made of both halves.
+struct Whole {
+    Triangulation t;
+    Array<double> radius;
+
+    /// To be filled, with room for the nodes of a boundary.
+    Whole(Vertex vertices, Triangle triangles) {
+        const auto count = static_cast<std::size_t>(vertices), room = count + count / 4 + 1000;
+        const auto faces = static_cast<std::size_t>(triangles);
+        t.xy = unfilled_with_room<Point2>(count, room);
+        t.size = unfilled_with_room<SizeTensor>(count, room);
+        t.tri = unfilled_with_room<Vertex>(3 * faces, 6 * room);
+        t.adj = unfilled_with_room<HalfEdge>(3 * faces, 6 * room);
+        t.region = unfilled_with_room<Region>(faces, 2 * room);
+        t.mark = unfilled_with_room<std::int32_t>(faces, 2 * room);
+        radius = unfilled_with_room<double>(count, room);
+    }
+};
+
+/// Copy what is kept. The circles on the line are those of the half that is not reversed.
+void copy(const Packing& from, const Renumbering& number, Whole& to) {
     const Triangulation& t = from.t;
-    for (Vertex v = number.line + 1; v < t.vertices(); ++v) {
-        to.t.xy[number.vertex(v)] = t.xy[v];
-        to.t.size[number.vertex(v)] = t.size[v];
-        to.radius[number.vertex(v)] = from.radius[v];
-    }
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (!number.is_kept(k)) continue;
-        const Triangle n = number.triangle(k);
-        for (HalfEdge e = 3 * k, f = 3 * n; e < 3 * k + 3; ++e, ++f) {
-            to.t.tri[f] = number.vertex(t.tri[e]);
-            to.t.adj[f] = number.is_kept(t.adj[e] / 3) ? number.half_edge(t.adj[e]) : NIL;
+    const auto first_vertex = static_cast<std::size_t>(number.reversed ? number.line + 1 : 0);
+    for_each_block(t.xy.size(), TOUCHED_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = std::max(first, first_vertex); v < last; ++v) {
+            if (static_cast<Vertex>(v) == number.line) continue;  // behind
+            const Vertex n = number.vertex(static_cast<Vertex>(v));
+            to.t.xy[n] = t.xy[v];
+            to.t.size[n] = t.size[v];
+            to.radius[n] = from.radius[v];
         }
-        to.t.region[n] = t.region[k];
-        to.t.mark[n] = 0;
-    }
+    });
+    for_each_block(t.region.size(), TOUCHED_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+            if (!number.is_kept(k)) continue;
+            const Triangle n = number.triangle(k);
+            for (HalfEdge e = 3 * k, f = 3 * n; e < 3 * k + 3; ++e, ++f) {
+                to.t.tri[f] = number.vertex(t.tri[e]);
+                to.t.adj[f] = number.is_kept(t.adj[e] / 3) ? number.half_edge(t.adj[e]) : NIL;
+            }
+            to.t.region[n] = t.region[k];
+            to.t.mark[n] = 0;
+        }
+    });
 }
 
 /// Twins across the line, and at its ends: what was joined to the fan.
@@ -91,16 +119,6 @@ struct OpenEdges {
 void join(Triangulation& t, HalfEdge e, HalfEdge f) {
     t.adj[e] = f;
     t.adj[f] = e;
-}
-
-void resize(Packing& p, Vertex vertices, Triangle triangles) {
-    p.t.xy.resize(static_cast<std::size_t>(vertices));
-    p.t.size.resize(static_cast<std::size_t>(vertices));
-    p.radius.resize(static_cast<std::size_t>(vertices));
-    p.t.tri.resize(3 * static_cast<std::size_t>(triangles));
-    p.t.adj.resize(3 * static_cast<std::size_t>(triangles));
-    p.t.region.resize(static_cast<std::size_t>(triangles));
-    p.t.mark.resize(static_cast<std::size_t>(triangles));
 }
 
 void add_counts(PackingCounts& sum, const PackingCounts& other) {
@@ -160,14 +178,15 @@ bool join_halves(Packing& p, const Packing& other, Vertex line) {
     const Renumbering its{
         line, true, own_vertices, own_triangles, {others.ghosts[0], others.ghosts[1]}};
     const OpenEdges open(p.t, ends, number), across(other.t, others, its);
-    copy(p, number, p);
-    resize(p, own_vertices + other.t.vertices() - line - 1,
-           own_triangles + other.t.triangles() - fan - 2);
-    copy(other, its, p);
-    for (Triangle k = 0; k < fan; ++k) join(p.t, open.along[k], across.along[fan - 1 - k]);
-    join(p.t, open.into, across.from);
-    join(p.t, open.from, across.into);
-    p.t.search = 0;
+    Whole whole(own_vertices + other.t.vertices() - line - 1,
+                own_triangles + other.t.triangles() - fan - 2);
+    copy(p, number, whole);
+    copy(other, its, whole);
+    for (Triangle k = 0; k < fan; ++k) join(whole.t, open.along[k], across.along[fan - 1 - k]);
+    join(whole.t, open.into, across.from);
+    join(whole.t, open.from, across.into);
+    p.t = std::move(whole.t);
+    p.radius = std::move(whole.radius);
     p.front = {};
     add_counts(p.counts, other.counts);
     if (p.end.status == PackingStatus::finished) p.end = other.end;

@@ -123,8 +123,7 @@ Packing pack_halves(const Background& background, const LaidLine& laid, Point2 l
             std::reverse(circles.begin(), circles.end());
             line.direction = -1.0 * line.direction;
         }
-        const std::size_t room = n == 0 ? expected : expected / 2;  // the other goes to the first
-        halves[n] = pack_half(background, std::move(circles), line, low, high, room,
+        halves[n] = pack_half(background, std::move(circles), line, low, high, expected / 2,
                               shared.of_half(static_cast<int>(n)));
     });
     Packing& whole = halves[0];

@@ -1,6 +1,7 @@
 #include "patch/schedule.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 
 #include "optimisation/marked_triangles.hpp"
@@ -22,6 +23,7 @@ constexpr double BAD_SHAPE = 0.72;
 // the first is always bad, above the second always good. Their neighbours lose what they gain.
 constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
 constexpr int RAISING_PASSES = 3, BORDER_PASSES = 4;
+constexpr std::size_t SHAPES_TOGETHER = 1 << 15;  // looked at together
 
 // Triangles below this alpha lose a corner where what it leaves can be filled with better ones.
 constexpr double FILLED_ANEW = 0.82;
@@ -97,15 +99,27 @@ void improve_worst(PatchState& state) {
     }
 }
 
-/// Alpha of the triangle that has WORST_PART of all before it, as swaps have last seen them.
-double shape_of_worst_part(const PatchState& state) {
-    Array<double> shapes;
-    for (Triangle k = 0; k < state.t.triangles(); ++k)
-        if (state.t.region[k] != DEAD) shapes.push_back(state.shape[k]);
-    if (shapes.empty()) return 1.0;
-    double* const nth = shapes.begin() + static_cast<std::ptrdiff_t>(
-                                             WORST_PART * static_cast<double>(shapes.size()));
-    std::nth_element(shapes.begin(), nth, shapes.end());
+/// Alpha of the triangle that has WORST_PART of all before it, as swaps have last seen them, as far
+/// as it is below ``most``.
+double shape_of_worst_part(const PatchState& state, double most) {
+    const Triangulation& t = state.t;
+    std::atomic<std::size_t> living = 0;
+    Array<double> below = collect_by_blocks<double>(
+        t.region.size(), SHAPES_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<double>& own) {
+            std::size_t count = 0;
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+                if (t.region[k] == DEAD) continue;
+                ++count;
+                if (state.shape[k] < most) own.push_back(state.shape[k]);
+            }
+            living += count;
+        });
+    const auto before =
+        static_cast<std::ptrdiff_t>(WORST_PART * static_cast<double>(living.load()));
+    if (before >= static_cast<std::ptrdiff_t>(below.size())) return most;
+    double* const nth = below.begin() + before;
+    std::nth_element(below.begin(), nth, below.end());
     return *nth;
 }
 
@@ -121,7 +135,7 @@ void mend_border(PatchState& state, double least) {
 /// Raise the smallest alpha of the few worst triangles, whatever their edges.
 void raise_worst(PatchState& state) {
     if (state.stopped() || state.shape.size() < state.t.region.size()) return;
-    const double least = std::clamp(shape_of_worst_part(state), RAISED[0], RAISED[1]);
+    const double least = std::max(shape_of_worst_part(state, RAISED[1]), RAISED[0]);
     mend_border(state, least);
     for (int pass = 0; pass < RAISING_PASSES; ++pass) {
         state.raise_worst(least);

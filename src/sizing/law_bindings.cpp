@@ -9,6 +9,7 @@
 #include "fields/field_node_arrays.hpp"
 #include "fields/field_outcome_tuple.hpp"
 #include "sizing/bounded_features.hpp"
+#include "sizing/principal_lattice.hpp"
 #include "sizing/stretched_law.hpp"
 #include "sizing/surface_law.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -153,6 +154,27 @@ void bind_direction_rates(nb::module_& m) {
         "that.");
 }
 
+void bind_principal_lattice(nb::module_& m) {
+    m.attr("LEAST_ROWS") = LEAST_ROWS;
+    m.def(
+        "keeps_lattice",
+        [](const Surface& surface, std::pair<double, double> extent, const SizeRules& rules,
+           double slope) {
+            SurfaceReader reader(surface);
+            const bool kept = [&] {
+                const nb::gil_scoped_release released;
+                return keeps_lattice(reader, {extent.first, extent.second}, rules, slope);
+            }();
+            raise_failure(surface, reader.status());
+            if (std::exception_ptr failure = rules.take_failure()) std::rethrow_exception(failure);
+            return kept;
+        },
+        nb::arg("surface"), nb::arg("extent"), nb::arg("rules"), nb::arg("slope"),
+        "Does a lattice of triangles, laid along principal directions at one place, lie so "
+        "everywhere?\n\nextent: of the surface's chart. rules: for such a lattice. slope: growth "
+        "of sizes per length at most.");
+}
+
 void bind_bounded_features(nb::module_& m) {
     nb::class_<BoundedFeatures, HiddenFeatures>(m, "BoundedFeatures",
                                                 "Features between samples, where derivatives are "
@@ -176,6 +198,7 @@ void bind_size_laws(nb::module_& m) {
     bind_surface_law(m);
     bind_stretched_law(m);
     bind_direction_rates(m);
+    bind_principal_lattice(m);
     bind_bounded_features(m);
 }
 

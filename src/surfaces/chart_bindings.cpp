@@ -110,6 +110,8 @@ void bind_axes(nb::module_& m) {
 }
 
 void bind_charts_of_two_axes(nb::module_& m) {
+    m.attr("CHART_SAMPLES") = CHART_SAMPLES;
+    m.attr("CHART_SAMPLES_OF_PIECE") = CHART_SAMPLES_OF_PIECE;
     nb::class_<Chart>(m, "Chart", "(u, v) of a surface and the scaled plane, axis by axis.")
         .def(
             "__init__",

@@ -16,11 +16,20 @@
 
 namespace surfmesh {
 
+/// Points along an axis at which speeds are taken, at most; and of a smooth piece of a surface.
+inline constexpr std::size_t CHART_SAMPLES = 257, CHART_SAMPLES_OF_PIECE = 32;
+
+/// The same of a surface of so many smooth pieces.
+constexpr std::size_t chart_samples(std::size_t pieces) {
+    return pieces < CHART_SAMPLES / CHART_SAMPLES_OF_PIECE ? CHART_SAMPLES_OF_PIECE * pieces + 1
+                                                           : CHART_SAMPLES;
+}
+
 /// What is known of an axis before it is sampled.
 struct KnownAxis {
-    bool steady;                // the speed is the same all along it
-    Array<BentPiece> pieces;    // where the speed has no bound, or none
-    std::size_t samples = 257;  // along it, at least two
+    bool steady;                          // the speed is the same all along it
+    Array<BentPiece> pieces;              // where the speed has no bound, or none
+    std::size_t samples = CHART_SAMPLES;  // along it, at least two
 };
 
 /// Sampled where nothing is known; the reader says whether it could be.

@@ -1,8 +1,10 @@
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/tuple.h>
 
 #include "binding/arrays.hpp"
 #include "surfaces/callback_surface.hpp"
 #include "surfaces/closest_point.hpp"
+#include "surfaces/coincident_sides.hpp"
 #include "surfaces/sharp_bends.hpp"
 
 namespace surfmesh::binding {
@@ -13,6 +15,26 @@ using ParameterTriangles =
 
 auto arrays_of(const ClosestPoints& found) {
     return std::tuple(view(found.uv), view(found.distance), view(found.foot));
+}
+
+void bind_coincident_sides(nb::module_& m) {
+    m.attr("SAME_SIDE") = SAME_SIDE;
+    m.def(
+        "coincident_sides",
+        [](const Surface& surface, const std::array<double, 4>& rounding) {
+            SurfaceReader reader(surface);
+            CoincidentSides found;
+            {
+                const nb::gil_scoped_release released;
+                found = coincident_sides(reader, rounding);
+            }
+            raise_failure(surface, reader.status());
+            return std::tuple(found.collapsed, found.partner, found.reversed);
+        },
+        nb::arg("surface"), nb::arg("rounding"),
+        "Of the four sides of a surface's domain, numbered as Python's ``sides``: is it one point "
+        "in space, the side that it coincides with or -1, does it run against that.\n\nrounding: "
+        "how far the rounding of a parameter moves each of them, a fraction of the surface.");
 }
 
 void bind_closest_points(nb::module_& m) {
@@ -71,6 +93,7 @@ void bind_closest_points(nb::module_& m) {
 }  // namespace
 
 void bind_surface_searches(nb::module_& m) {
+    bind_coincident_sides(m);
     bind_closest_points(m);
     m.def(
         "bends_sharply",

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "triangulation/space_filling_order.hpp"
-#include "values/threads.hpp"
+#include "values/first_touch.hpp"
 
 namespace surfmesh {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t ROOM = 16;                  // there is room for this part
 
 /// The vertices that triangles inside use, in the order they will have.
 Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
-    Array<std::uint8_t> used(t.xy.size(), 0);
+    auto used = filled_by_threads<std::uint8_t>(t.xy.size(), 0);
     for_each_block(t.region.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k) {
             if (t.region[k] != INSIDE) continue;
@@ -80,13 +80,6 @@ Array<Part> parts_of(const Array<Triangle>& first) {
     return parts;
 }
 
-/// So many values that are to be written, with room for more.
-template <class T>
-void begin_unfilled(Array<T>& array, std::size_t size, std::size_t room) {
-    array = Array<T>::unfilled(std::max(size, room));
-    array.resize(size);
-}
-
 void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
                     DomainTriangulation& domain) {
     Triangulation& out = domain.t;
@@ -109,14 +102,12 @@ void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
 DomainTriangulation cut_inside(const Triangulation& t) {
     const auto triangles =
         static_cast<Triangle>(std::count(t.region.begin(), t.region.end(), INSIDE));
-    DomainTriangulation domain{{}, Array<Vertex>(t.xy.size(), NIL)};
+    DomainTriangulation domain{{}, filled_by_threads<Vertex>(t.xy.size(), NIL)};
     Triangulation& out = domain.t;
     const Array<Vertex> inside = vertices_inside(t, triangles);
     const std::size_t vertices = inside.size() + inside.size() / ROOM + 64;  // with room for more
-    out.region.reserve(2 * vertices);
-    out.mark.reserve(2 * vertices);
-    begin_unfilled(out.xy, inside.size(), vertices);
-    begin_unfilled(out.size, inside.size(), vertices);
+    out.xy = unfilled_with_room<Point2>(inside.size(), vertices);
+    out.size = unfilled_with_room<SizeTensor>(inside.size(), vertices);
     for_each_block(inside.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (std::size_t n = start; n < end; ++n) {
             domain.vertex_number[inside[n]] = static_cast<Vertex>(n);
@@ -125,16 +116,16 @@ DomainTriangulation cut_inside(const Triangulation& t) {
         }
     });
     const auto half_edges = 3 * static_cast<std::size_t>(triangles);
-    begin_unfilled(out.tri, half_edges, 6 * vertices);
-    begin_unfilled(out.adj, half_edges, 6 * vertices);
-    begin_unfilled(out.fixed, half_edges, 6 * vertices);
-    out.region.resize(half_edges / 3, 0);
-    out.mark.resize(half_edges / 3, 0);
+    out.tri = unfilled_with_room<Vertex>(half_edges, 6 * vertices);
+    out.adj = unfilled_with_room<HalfEdge>(half_edges, 6 * vertices);
+    out.fixed = unfilled_with_room<std::uint8_t>(half_edges, 6 * vertices);
+    out.region = filled_by_threads<Region>(half_edges / 3, 0, 2 * vertices);
+    out.mark = filled_by_threads<std::int32_t>(half_edges / 3, 0, 2 * vertices);
     if (triangles < LARGE_TRIANGULATION) {
         copy_triangles(t, number_triangles(t), domain);
         return domain;
     }
-    Array<Triangle> first(out.xy.size() + 1, 0);
+    auto first = filled_by_threads<Triangle>(out.xy.size() + 1, 0);
     copy_triangles(t, number_by_vertex(t, domain.vertex_number, first), domain);
     out.parts = parts_of(first);
     return domain;

@@ -139,6 +139,21 @@ def patch_errors(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), 
     metric_root (nodes, 3): A = H^-1. step (cells, 2): width and height. largest: size above which none counts.
     """
 
+def root_cells_of_face(pieces: int) -> int:
+    """
+    About how many cells the search starts with on a face of so many smooth pieces.
+    """
+
+def root_grid(extent: tuple[float, float], cells: int) -> tuple[int, int]:
+    """
+    How many cells along x and y: about so many, as near to squares as they can be.
+    """
+
+def small_sources(places: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], grid: tuple[int, int], extent: tuple[float, float]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))]:
+    """
+    x, y on the grid of GRID_DEPTH of places (n, 2) in the scaled plane, and how deep the cell there shall be for sizes (n,): (n, 3) int64.
+    """
+
 GRID_DEPTH: int = 20
 
 class NodeLaw:

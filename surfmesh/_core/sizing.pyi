@@ -173,6 +173,15 @@ def longest_along(rates: Annotated[NDArray[numpy.float64], dict(shape=(None, 2),
     Largest length (n,) of triangles that are size (n,) wide, at rates (n, 2); at least that.
     """
 
+LEAST_ROWS: float = 24.0
+
+def keeps_lattice(surface: surfmesh._core.surfaces.Surface, extent: tuple[float, float], rules: SizeRules, slope: float) -> bool:
+    """
+    Does a lattice of triangles, laid along principal directions at one place, lie so everywhere?
+
+    extent: of the surface's chart. rules: for such a lattice. slope: growth of sizes per length at most.
+    """
+
 class BoundedFeatures(surfmesh._core.fields.HiddenFeatures):
     """Features between samples, where derivatives are bounded."""
 

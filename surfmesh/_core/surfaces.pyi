@@ -132,6 +132,15 @@ def offset_surface(basis: Surface, distance: float) -> Surface:
     r + distance n with n along r_u x r_v, for a basis that has third derivatives.
     """
 
+SAME_SIDE: float = 1e-09
+
+def coincident_sides(surface: Surface, rounding: Sequence[float]) -> tuple[list[bool], list[int], list[bool]]:
+    """
+    Of the four sides of a surface's domain, numbered as Python's ``sides``: is it one point in space, the side that it coincides with or -1, does it run against that.
+
+    rounding: how far the rounding of a parameter moves each of them, a fraction of the surface.
+    """
+
 PROJECTION_MARGIN: float = 0.01
 
 def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
@@ -230,6 +239,10 @@ class ChartAxis:
 
         Linear outside [0, extent], constant where the parameter is bent.
         """
+
+CHART_SAMPLES: int = 257
+
+CHART_SAMPLES_OF_PIECE: int = 32
 
 class Chart:
     """(u, v) of a surface and the scaled plane, axis by axis."""

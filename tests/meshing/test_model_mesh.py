@@ -115,7 +115,7 @@ def test_faces_that_fail_are_named(monkeypatch):
         return FaceMesh(failure="no luck") if job.surface is top else work(job)
 
     monkeypatch.setattr(face_workers, "mesh_face", failing)
-    monkeypatch.setattr(face_queue, "_ordinary", lambda *_: None)
+    monkeypatch.setattr(face_queue.CoreFaces, "face", lambda *_: None)
     with pytest.raises(MeshingError, match=r"1 of 6 faces .* face 2 .*no luck"):
         sm.mesh(model, 0.5)
     mesh = sm.mesh(model, 0.5, strict=False)

@@ -109,7 +109,7 @@ def test_mistakes_of_ours_are_called_so(monkeypatch):
         raise IndexError("no such slot")
 
     monkeypatch.setattr(face_mesh, "_made", broken)
-    monkeypatch.setattr(face_queue, "_ordinary", lambda *_: None)
+    monkeypatch.setattr(face_queue.CoreFaces, "face", lambda *_: None)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
 

@@ -13,12 +13,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from surfmesh._core import surfaces
+from surfmesh._core.surfaces import CHART_SAMPLES, CHART_SAMPLES_OF_PIECE
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.infinite_speed import STRAIGHT, BentAxes, bent_axes_of, is_bent
 from surfmesh.geometry.surface import Domain, Surface, smooth_pieces, steady_axes
-
-SAMPLES, SAMPLES_OF_PIECE = 257, 32
-"""Points along an axis at which speeds are taken, at most; and of a smooth piece of a surface."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,9 @@ class Chart:
     def of(cls, surface: Surface) -> Chart:
         bent = bent_axes_of(surface)
         pieces = smooth_pieces(surface)
-        samples = SAMPLES if pieces is None else min(SAMPLES_OF_PIECE * pieces + 1, SAMPLES)
+        samples = CHART_SAMPLES
+        if pieces is not None:
+            samples = min(CHART_SAMPLES_OF_PIECE * pieces + 1, CHART_SAMPLES)
         made = surfaces.Chart.of(
             as_core_surface(surface), steady_axes(surface), _pieces(bent), samples
         )

@@ -15,6 +15,7 @@ tube_triangles: the long triangles of thin tips and necks, put beside the mesh o
 strip_triangulation: faces without inside: triangles between the nodes of two sides that face
     each other.
 inward_faces: faces whose sizes the core grows inward from their edges.
+graded_faces: faces whose sizes the core finds from their curvature and their edges.
 face_in_rows: a face's mesh that the core keeps in rows with others.
 face_queue: ordinary faces, which the core meshes one after the other without the interpreter.
 partitions: meshes of faces that stay in files which all workers see.

@@ -1,8 +1,8 @@
 """Ordinary faces, which the core meshes one after the other without the interpreter.
 
-jobs -> inward faces, most work first -> FaceQueue of the core -> rows of arrays -> face meshes
-                                            |
-                                            +-> what is out of the ordinary goes on in face_mesh.py
+jobs -> faces of the core, most work first -> FaceQueue of the core -> rows of arrays -> face meshes
+                                                  |
+                what is out of the ordinary <-----+  goes on in face_mesh.py
 """
 
 from collections.abc import Iterable, Sequence
@@ -13,7 +13,25 @@ from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_in_rows import FaceInRows
 from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_mesh import continued
+from surfmesh.meshing.faces.graded_faces import GradedFaces
 from surfmesh.meshing.faces.inward_faces import InwardFaces
+
+
+class CoreFaces:
+    """Makes of jobs what the core meshes by itself."""
+
+    def __init__(self) -> None:
+        self._inward, self._graded = InwardFaces(), GradedFaces()
+
+    def face(self, job: FaceJob) -> core.InwardFace | core.GradedFace | None:
+        """None where a job needs another way from the start."""
+        exact = job.exact
+        if job.narrow is not None or (exact is not None and exact.may_be_wrong and exact.at_once):
+            return None
+        try:
+            return self._inward.face(job, look_for_tubes=True) or self._graded.face(job)
+        except Exception:  # face_mesh.py comes upon it again, and puts it into words
+            return None
 
 
 class FaceQueue:
@@ -21,18 +39,18 @@ class FaceQueue:
 
     def __init__(
         self, jobs: Sequence[FaceJob] | FaceJobs, order: Iterable[int],
-        inward: InwardFaces | None = None,
+        makes: CoreFaces | None = None,
     ) -> None:  # fmt: skip
-        """order: numbers of the jobs, as they are to be begun; others than inward ones are left.
-        inward: what makes faces of them, where several queues do."""
+        """order: numbers of the jobs, as they are to be begun; what the core cannot mesh is left.
+        makes: what makes faces of them, where several queues do."""
         self._jobs = jobs
         self._numbers: list[int] = []
         """Of the jobs that it takes."""
         self.left: list[int] = []
         """Of the jobs that it does not take, in their order."""
-        faces, inward = [], inward or InwardFaces()
+        faces, makes = [], makes or CoreFaces()
         for number in order:
-            face = _ordinary(jobs[number], inward)
+            face = makes.face(jobs[number])
             if face is None:
                 self.left.append(number)
             else:
@@ -52,17 +70,6 @@ class FaceQueue:
     def stop(self) -> None:
         """Nothing is begun any more, and what is under way is given up."""
         self._core.stop()
-
-
-def _ordinary(job: FaceJob, inward: InwardFaces) -> core.InwardFace | None:
-    """A job as the core takes it; None where it needs another way from the start."""
-    exact = job.exact
-    if job.narrow is not None or (exact is not None and exact.may_be_wrong and exact.at_once):
-        return None
-    try:
-        return inward.face(job, look_for_tubes=True)
-    except Exception:  # face_mesh.py comes upon it again, and puts it into words
-        return None
 
 
 def _in_rows(rows: core.FaceRows) -> list[tuple[int, FaceMesh]]:

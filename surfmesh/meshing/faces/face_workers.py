@@ -19,8 +19,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_mesh import mesh_face
-from surfmesh.meshing.faces.face_queue import FaceQueue
-from surfmesh.meshing.faces.inward_faces import InwardFaces
+from surfmesh.meshing.faces.face_queue import CoreFaces, FaceQueue
 from surfmesh.meshing.faces.partitions import FaceStore
 from surfmesh.meshing.processors import allowed_threads
 
@@ -104,9 +103,9 @@ class FaceWorkers:
         self, jobs: FaceJobs, waiting: list[int]
     ) -> Iterator[tuple[int, FaceMesh]]:  # fmt: skip
         """waiting: jobs in their order. The first are begun before the others are made ready."""
-        inward = InwardFaces()
+        makes = CoreFaces()
         jobs.make(waiting[:BEGUN])
-        queues = [FaceQueue(jobs, waiting[:BEGUN], inward)]
+        queues = [FaceQueue(jobs, waiting[:BEGUN], makes)]
         single = queues[0].left[::-1]  # what the core does not mesh by itself; the last is next
         is_ready = Event()
         done: SimpleQueue[list[tuple[int, FaceMesh]] | BaseException] = SimpleQueue()
@@ -138,7 +137,7 @@ class FaceWorkers:
                 for _ in range(self.threads):
                     pool.submit(take_all)
                 jobs.make(waiting[BEGUN:])
-                queues.append(FaceQueue(jobs, waiting[BEGUN:], inward))
+                queues.append(FaceQueue(jobs, waiting[BEGUN:], makes))
                 single[:0] = queues[1].left[::-1]
                 is_ready.set()
                 left = len(waiting)

@@ -81,7 +81,7 @@ class _Sizes:
         """How a face is meshed in the first round."""
         key = optimise, on_lattice
         if key not in self._manners:
-            self._manners[key] = _manner(self.sizing, optimise, True, on_lattice)
+            self._manners[key] = face_manner(self.sizing, optimise, True, on_lattice)
         return self._manners[key]
 
     def largest(
@@ -106,10 +106,11 @@ class _Sizes:
 
 def manner_of(job: FaceJob, field: SizeField) -> FaceManner:
     """How a face is meshed with the sizes of this field."""
-    return _manner(field.sizing, job.optimise, job.limits is None, field.law.is_on_lattice)
+    return face_manner(field.sizing, job.optimise, job.limits is None, field.law.is_on_lattice)
 
 
-def _manner(sizing: Sizing, optimise: bool, is_first: bool, on_lattice: bool) -> FaceManner:
+def face_manner(sizing: Sizing, optimise: bool, is_first: bool, on_lattice: bool) -> FaceManner:
+    """How a face is meshed. is_first: its sizes come from no earlier round."""
     return FaceManner(
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         optimise, is_first, sizing.is_anisotropic, sizing.gradient,

@@ -5,8 +5,6 @@ blocks of nodes, and where features may hide between them. Here is what is asked
 the search starts, what counts as too much, and what errors say.
 """
 
-import math
-
 import numpy as np
 
 import surfmesh._core.fields as core
@@ -23,12 +21,6 @@ from surfmesh.sizing.rules.direction_rates import has_even_curvature
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
 
-CELLS_OF_PIECE, CELLS_OF_FACE = 16, (64, 2304)
-"""The same for the faces of a CAD model, which are smooth between the knots of their splines."""
-
-LONGEST_ROW = 2048
-"""Root cells along the longer side of a narrow face, at most."""
-
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
@@ -37,19 +29,6 @@ FAR_BEYOND = 2.0
 
 
 _OPEN_SIDES = [-1] * 4, [False] * 4
-
-
-def _root_grid(width: float, height: float, cells: int) -> tuple[int, int]:
-    """How many cells along x and y: about ``cells`` of them, as near to squares as they can be.
-
-    A cell keeps its shape when it is split: long ones would have to become far too narrow.
-    """
-    ratio = max(width, height) / min(width, height)
-    most = max(cells // 4, min(round(2.0 * ratio), LONGEST_ROW))
-    longer = min(max(round(math.sqrt(cells * ratio)), 4), most)
-    least = 2 if longer > cells // 4 else 4
-    shorter = min(max(round(cells / longer), least), cells // 4)
-    return (longer, shorter) if width > height else (shorter, longer)
 
 
 FREE_CELLS = 200_000
@@ -70,18 +49,16 @@ class FieldBuilder:
         width, height = self.chart.extent.tolist()
         roots = ROOT_CELLS
         if isinstance(surface, FaceSurface):
-            fewest, most = CELLS_OF_FACE
-            roots = min(max(CELLS_OF_PIECE * surface.pieces, fewest), most)
-        nx, ny = _root_grid(width, height, roots)
-        step = np.array([width / nx, height / ny])
+            roots = core.root_cells_of_face(surface.pieces)
+        grid = nx, ny = core.root_grid((width, height), roots)
         self.core = core.FieldBuilder(
-            grid=(nx, ny),
+            grid=grid,
             extent=(width, height),
-            root_step=(step[0], step[1]),
+            root_step=(width / nx, height / ny),
             slope=law.sizing.gradient,
             largest=16.0 * max(width, height),  # for degenerate points
             sides=_OPEN_SIDES if sides is None else (list(sides.partner), list(sides.reversed)),
-            sources=self._sources(step),
+            sources=self._sources(grid),
             known_sizes=law.limits is not None and law.limits.uv is not None,
             counts_triangles=self._is_of_formulas,
             free_cells=FREE_CELLS,
@@ -122,20 +99,15 @@ class FieldBuilder:
             return np.inf
         return FAR_BEYOND * self.law.sizing.limit
 
-    def _sources(self, step: np.ndarray) -> np.ndarray:
+    def _sources(self, grid: tuple[int, int]) -> np.ndarray:
         """Places (k, 3) of small sizes on the core's grid, and how deep cells there shall be."""
         if not isinstance(self.law, SizeLaw):
             return np.empty((0, 3), np.int64)
         uv, sizes = small_sizes(
             self.surface, self.law.sizing, self.law.limits, self.law.loop_limits
         )
-        unit = 1 << core.GRID_DEPTH
-        last = np.round(self.chart.extent / step * unit).astype(np.int64) - 1
-        grid = np.clip(self.chart.to_plane(uv) / step * unit, 0, last).astype(np.int64)
-        # the leaves are split once more at the end
-        depth = np.ceil(np.log2(0.5 * float(step.max()) / sizes))
-        depth = np.clip(depth, 0, core.GRID_DEPTH).astype(np.int64)
-        return np.concatenate([grid, depth[:, None]], axis=1)
+        width, height = self.chart.extent.tolist()
+        return core.small_sources(self.chart.to_plane(uv), sizes, grid, (width, height))
 
     def _require_done(self, outcome: tuple[str, tuple[float, float], float]) -> None:
         """Raise SizingError for what the core could not do."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.sizing.field.field_builder import LONGEST_ROW, _root_grid
+from surfmesh._core.fields import root_grid
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 
@@ -12,13 +12,13 @@ from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
     ("width", "height", "cells"), [(1.0, 1.0, 64), (153.5, 0.62, 128), (0.125, 170.0, 128)]
 )
 def test_root_cells_are_not_long(width, height, cells):
-    nx, ny = _root_grid(width, height, cells)
+    nx, ny = root_grid((width, height), cells)
     assert max(width / nx * ny / height, height / ny * nx / width) < 7.0
-    assert _root_grid(height, width, cells) == (ny, nx)
+    assert root_grid((height, width), cells) == (ny, nx)
 
 
 def test_no_row_of_root_cells_is_too_long():
-    assert max(_root_grid(1e9, 1.0, 2304)) == LONGEST_ROW
+    assert max(root_grid((1e9, 1.0), 2304)) == 2048
 
 
 @pytest.mark.parametrize("ratio", [5.0, 20.0])

@@ -13,7 +13,7 @@ from surfmesh.meshing.faces import face_mesh, face_queue
 @pytest.fixture(autouse=True)
 def none_by_the_core(monkeypatch):
     """Every face is meshed by ``mesh_face`` from its beginning."""
-    monkeypatch.setattr(face_queue, "_ordinary", lambda *_: None)
+    monkeypatch.setattr(face_queue.CoreFaces, "face", lambda *_: None)
 
 
 def test_an_internal_error_leaves_its_traceback_in_the_log(monkeypatch, caplog):

@@ -59,7 +59,7 @@ def threads_for_all(monkeypatch):
 
 @pytest.fixture
 def none_by_the_core(monkeypatch):
-    monkeypatch.setattr(face_queue, "_ordinary", lambda *_: None)
+    monkeypatch.setattr(face_queue.CoreFaces, "face", lambda *_: None)
 
 
 ARRAYS = "points triangles uv_points uv_triangles face_ids sizes edge_segments vertex_ids".split()

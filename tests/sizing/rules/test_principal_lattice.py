@@ -5,8 +5,11 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.rules.curvature_size import chord_size, lattice_chord_size
+from surfmesh.sizing.rules.principal_lattice import keeps_lattice
+from tests.naive import principal_lattice as naive
 
 # a cylinder whose lines u = constant wind around it
 SHEARED = sm.ParametricSurface(
@@ -102,3 +105,12 @@ def test_only_the_reserve_differs(ratio):
     k = np.array([2.0])
     larger = lattice_chord_size(k, ratio * k, 1e-3) / chord_size(k, ratio * k, 1e-3)
     assert 1.03 < float(larger[0]) < 1.09
+
+
+@pytest.mark.parametrize("chord", [1e-2, 1e-3, 1e-4])
+@pytest.mark.parametrize("name", gallery())
+def test_the_core_finds_lattices_as_the_twin_does(name, chord):
+    surface = load_formula_file(gallery()[name])
+    law = SizeLaw.of(surface, sm.Sizing(chord=chord))
+    rules, extent = law.rules.on_lattice(), law.chart.extent
+    assert keeps_lattice(surface, extent, rules) == naive.keeps_lattice(surface, extent, rules)
