@@ -163,6 +163,9 @@ def _edges(measured: Measurements, missing: bool) -> Iterator[Problem]:
     if len(odd.bare_edges) and not missing:
         bare = "with fewer triangles than the model has faces there"
         yield _odd_edges(measured.mesh, odd.bare_edges, Kind.EDGES, bare)
+    if len(measured.torn_edges) and not missing:
+        torn = "with nothing beside them where the surface goes on"
+        yield _odd_edges(measured.mesh, measured.torn_edges, Kind.EDGES, torn)
 
 
 def _odd_edges(mesh: SurfaceMesh, found: NDArray[np.intp], kind: Kind, what: str) -> OddEdges:
