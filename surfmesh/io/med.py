@@ -113,7 +113,7 @@ def read(path: Path) -> SurfaceMesh:
 
 
 def _without_groups(file: Any, h5py: ModuleType) -> list[str]:
-    """The families that belong to no group, as Gmsh writes them: meshio asks each for its groups."""
+    """Families of no group, as Gmsh writes them: meshio asks each for its groups."""
     found: list[str] = []
 
     def look(name: str, item: Any) -> None:

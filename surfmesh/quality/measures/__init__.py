@@ -45,6 +45,8 @@ Triangles that meet:
 self_intersection: triangles that meet where they share nothing: every pair, by an exact test.
 penetration: how deep two triangles go into each other, and how deep facets of a contact may.
 loose_edges: free rims of faces that lie edge to edge and share nothing: faces that were never sewn.
+coincident_edges: free edges that lie on each other and share no vertices: triangles that were
+    never joined.
 true_depth: how deep the corners of facets lie within the true body of other facets that they meet.
 bodies: bodies of a model that overlap, and those that touch without a common face.
 

@@ -14,6 +14,7 @@ from surfmesh.quality.measures.area_and_volume import Explained, explained, is_k
 from surfmesh.quality.measures.bodies import Bodies, bodies
 from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
+from surfmesh.quality.measures.coincident_edges import coincident_edges
 from surfmesh.quality.measures.curved import (
     CurvedShapes,
     curved_deviation,
@@ -94,6 +95,13 @@ class Measurements:
         if self.known is None:
             return np.empty(0, np.intp)
         return torn_edges(self.known, self.unexpected)
+
+    @cached_property
+    def coincident_edges(self) -> NDArray[np.intp]:
+        """Rows of free edges that lie on each other; none where surfaces say why they are free."""
+        if self.mesh.surfaces:
+            return np.empty(0, np.intp)
+        return coincident_edges(self.mesh)
 
     @property
     def is_curved(self) -> bool:
