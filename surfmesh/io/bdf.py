@@ -96,8 +96,8 @@ def read(path: Path) -> SurfaceMesh:
             tags.append(int(data[0]))
             points.append([_number(field) for field in (data + [""] * 5)[2:5]])
         elif card in ("CTRIA3", "CTRIA6"):
-            number, face, *nodes = data[: 5 if card == "CTRIA3" else 8]
-            rows.append([int(field) for field in (number, face or NO_PROPERTY, *nodes)])
+            number, face, *corners = data[: 5 if card == "CTRIA3" else 8]
+            rows.append([int(field) for field in (number, face or NO_PROPERTY, *corners)])
         elif card in ("CQUAD4", "CQUAD8", "CTETRA", "CHEXA", "CPENTA", "CQUADR"):
             raise FileFormatError(f"{path}: holds elements {card} that are not triangles")
     for line in lines:

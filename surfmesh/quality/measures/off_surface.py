@@ -20,6 +20,10 @@ OFF = 1e-6
 """Of the diagonal: what (u, v) that were kept in single precision would not reach."""
 
 
+STEPS = 8
+"""To the nearest point of the surface: vertices may have slid along it."""
+
+
 class OffSurface(NamedTuple):
     """Vertices that lie off their surfaces."""
 
@@ -33,29 +37,20 @@ def off_surface(known: KnownSurfaces, tolerances: Tolerances) -> OffSurface:
     free = ~np.isfinite(tolerances.at(tolerances.chord, mesh.face_ids))
     if mesh.sizing is None or mesh.sizing.vertices != ON_SURFACE or not free.any():
         return OffSurface(np.empty(0, np.int64), np.empty(0))
-    vertices, uv, faces = _corners(known, np.flatnonzero(free & (known.in_plane == 0)))
-    (on,) = np.nonzero(~_on_model_edges(mesh)[vertices])
-    vertices, uv, faces = vertices[on], corners.uv_points[uv[on]], faces[on]
-    away = np.linalg.norm(known.points_at(faces, uv) - mesh.points[vertices], axis=1)
-    (far,) = np.nonzero(away > OFF * diagonal(mesh.points))
-    for face in np.unique(faces[far]).tolist():
-        own = far[faces[far] == face]
-        found = closest_point(mesh.surfaces[face], mesh.points[vertices[own]], uv[own], steps=8)
-        away[own] = found[1]
-    far = far[away[far] > OFF * diagonal(mesh.points)]
-    most = np.zeros(len(mesh.points))
-    np.maximum.at(most, vertices[far], away[far])
-    found = np.flatnonzero(most)
-    return OffSurface(found, most[found])
-
-
-def _corners(
-    known: KnownSurfaces, triangles: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int32]]:
-    """Vertex, row of ``uv_points`` and face (k,) of the corners of triangles, each row once."""
-    rows, first = np.unique(known.corners.uv_triangles[triangles], return_index=True)
-    vertices = known.mesh.triangles[triangles].reshape(-1)[first]
-    return vertices.astype(np.int64), rows, known.mesh.face_ids[triangles[first // 3]]
+    triangles = np.flatnonzero(free & (known.in_plane == 0))
+    corner, first = np.unique(corners.uv_triangles[triangles], return_index=True)
+    vertex = mesh.triangles[triangles].reshape(-1)[first]
+    face, uv = mesh.face_ids[triangles[first // 3]], corners.uv_points[corner]
+    away = np.linalg.norm(known.points_at(face, uv) - mesh.points[vertex], axis=1)
+    far = np.flatnonzero((away > OFF * diagonal(mesh.points)) & ~_on_model_edges(mesh)[vertex])
+    distance = np.zeros(len(mesh.points))
+    for number in np.unique(face[far]).tolist():
+        own = far[face[far] == number]
+        points = mesh.points[vertex[own]]
+        _, nearest, _ = closest_point(mesh.surfaces[number], points, uv[own], steps=STEPS)
+        np.maximum.at(distance, vertex[own], nearest)
+    found = np.flatnonzero(distance > OFF * diagonal(mesh.points)).astype(np.int64)
+    return OffSurface(found, distance[found])
 
 
 def _on_model_edges(mesh: SurfaceMesh) -> NDArray[np.bool_]:

@@ -52,18 +52,18 @@ def torn_edges(known: KnownSurfaces, odd: Unexpected) -> NDArray[np.intp]:
 def _on_rim(surface: Surface, uv: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(k,) do segments uv (k, 2, 2) lie on the rim of the surface in (u, v)?"""
     if isinstance(surface, PlaneOfCoordinates):
-        return np.ones(len(uv), bool)
+        return np.ones(len(uv), np.bool_)
     low, high = np.array(surface.domain, float).T
     uv = (uv - low) / (high - low)
     if not len(surface.loops):
         sides = np.concatenate([abs(uv), abs(uv - 1.0)], axis=2) <= ON_SIDE
-        return sides.all(axis=1).any(axis=1)
+        return np.any(np.all(sides, axis=1), axis=1).astype(np.bool_)
     starts = [(np.asarray(loop, float) - low) / (high - low) for loop in surface.loops]
     ends = [np.roll(loop, -1, axis=0) for loop in starts]
     distance = SegmentDistance(_flat(np.concatenate(starts)), _flat(np.concatenate(ends)))
     places = np.concatenate([uv, uv.mean(axis=1, keepdims=True)], axis=1)
     away = distance(_flat(places.reshape(-1, 2)))
-    return (away.reshape(-1, 3) <= ON_SIDE).all(axis=1)
+    return np.all(away.reshape(-1, 3) <= ON_SIDE, axis=1).astype(np.bool_)
 
 
 def _flat(points: NDArray[np.float64]) -> NDArray[np.float64]:
