@@ -38,9 +38,12 @@ def off_surface(known: KnownSurfaces, tolerances: Tolerances) -> OffSurface:
     if mesh.sizing is None or mesh.sizing.vertices != ON_SURFACE or not free.any():
         return OffSurface(np.empty(0, np.int64), np.empty(0))
     triangles = np.flatnonzero(free & (known.in_plane == 0))
-    corner, first = np.unique(corners.uv_triangles[triangles], return_index=True)
-    vertex = mesh.triangles[triangles].reshape(-1)[first]
-    face, uv = mesh.face_ids[triangles[first // 3]], corners.uv_points[corner]
+    half_edge_of = np.full(len(corners.uv_points), -1)  # one of those at each corner
+    half_edge_of[corners.uv_triangles[triangles]] = 3 * triangles[:, None] + np.arange(3)
+    corner = np.flatnonzero(half_edge_of >= 0)
+    triangle, side = np.divmod(half_edge_of[corner], 3)
+    vertex, face = mesh.triangles[triangle, side], mesh.face_ids[triangle]
+    uv = corners.uv_points[corner]
     away = np.linalg.norm(known.points_at(face, uv) - mesh.points[vertex], axis=1)
     far = np.flatnonzero((away > OFF * diagonal(mesh.points)) & ~_on_model_edges(mesh)[vertex])
     distance = np.zeros(len(mesh.points))
