@@ -23,6 +23,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 CARD = {1: "CTRIA3  ", 2: "CTRIA6  "}
 SHORT, LONG = 8, 16  # characters in a field
+NO_PROPERTY = "1"  # elements without a property are one face; Nastran takes the element's number
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
@@ -95,7 +96,8 @@ def read(path: Path) -> SurfaceMesh:
             tags.append(int(data[0]))
             points.append([_number(field) for field in (data + [""] * 5)[2:5]])
         elif card in ("CTRIA3", "CTRIA6"):
-            rows.append([int(field) for field in data[: 5 if card == "CTRIA3" else 8]])
+            number, face, *corners = data[: 5 if card == "CTRIA3" else 8]
+            rows.append([int(field) for field in (number, face or NO_PROPERTY, *corners)])
         elif card in ("CQUAD4", "CQUAD8", "CTETRA", "CHEXA", "CPENTA", "CQUADR"):
             raise FileFormatError(f"{path}: holds elements {card} that are not triangles")
     for line in lines:

@@ -31,7 +31,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 COORDINATE = 20  # characters
 NAME = 60  # characters; both allow 80
-THREE_NODES = ("S3", "S3R", "STRI3", "S3RS", "CPS3", "CPE3", "M3D3", "DS3")
+THREE_NODES = ("S3", "S3R", "STRI3", "S3RS", "CPS3", "CPE3", "M3D3", "DS3", "R3D3")
 SIX_NODES = ("STRI65", "S6", "CPS6", "CPE6", "M3D6", "DS6")
 LINES = ("T3D2", "T3D3", "B21", "B22", "B31", "B32", "B33")  # passed over, as Gmsh writes them
 KIND = {"abaqus": {1: "S3", 2: "STRI65"}, "calculix": {1: "S3", 2: "S6"}}

@@ -83,7 +83,14 @@ def read(path: Path) -> SurfaceMesh:
     with h5py.File(path, "r") as file:
         require_bounded(path, file)
         text = bytes(file[RECORD][()]).decode("ascii") if RECORD in file else ""
-    found = meshio.med.read(path)
+        bare = _without_groups(file, h5py)
+    source: Path | BytesIO = path
+    if bare:
+        source = BytesIO(path.read_bytes())
+        with h5py.File(source, "r+") as file:
+            for family in bare:
+                del file[family]
+    found = meshio.med.read(source)
     elements, families = [], []
     tags = found.cell_data.get("cell_tags") or [np.zeros(len(c.data), int) for c in found.cells]
     for block, tag in zip(found.cells, tags):
@@ -103,3 +110,16 @@ def read(path: Path) -> SurfaceMesh:
     if triangles.shape[1] == 6:
         points, triangles, fields["mid_points"], _ = split_six_nodes(points, triangles)
     return SurfaceMesh(points=points, triangles=triangles, **fields)
+
+
+def _without_groups(file: Any, h5py: ModuleType) -> list[str]:
+    """Families of no group, as Gmsh writes them: meshio asks each for its groups."""
+    found: list[str] = []
+
+    def look(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Group) and "NUM" in item.attrs and "GRO" not in item:
+            found.append(f"FAS/{name}")
+
+    if "FAS" in file:
+        file["FAS"].visititems(look)
+    return found

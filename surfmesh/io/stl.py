@@ -106,7 +106,7 @@ def read(path: Path) -> SurfaceMesh:
 
 
 def _read_ascii(path: Path) -> SurfaceMesh:
-    """Solids by their names; a triangle that comes twice lies between two of them."""
+    """Solids by their names; a triangle that two of them have, one each way, lies between them."""
     names, words, counts, opened = [], [], [], False
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
@@ -124,15 +124,31 @@ def _read_ascii(path: Path) -> SurfaceMesh:
         raise FileFormatError(f"{path}: the ASCII .stl file is damaged or incomplete")
     points, triangles = welded(np.array(words, float).reshape(-1, 3))
     solids = np.repeat(np.arange(len(names)), np.diff(counts, append=len(words)) // 9)
-    _, first, of = np.unique(
-        np.sort(triangles, axis=1), axis=0, return_index=True, return_inverse=True
-    )
+    first, second = _between_two(triangles, solids)
     sides = np.full((len(triangles), 2), -1)
     sides[:, 0] = solids
-    again = first[of.reshape(-1)] != np.arange(len(triangles))
-    sides[first[of.reshape(-1)[again]], 1] = solids[again]
-    kept = np.sort(first)
+    sides[first, 1] = solids[second]
+    kept = np.delete(np.arange(len(triangles)), second)
     groups = MeshGroups(solid_names=tuple(names))
     return SurfaceMesh(
         points=points, triangles=triangles[kept], solid_ids=sides[kept], groups=groups
     )  # fmt: skip
+
+
+def _between_two(
+    triangles: NDArray[np.int64], solids: NDArray[np.int64]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows (k,) and (k,) of triangles that come just twice, in two solids and opposite ways."""
+    order = np.lexsort(np.sort(triangles, axis=1).T)
+    ranked = np.sort(triangles[order], axis=1)
+    start = np.flatnonzero(np.append(True, (ranked[1:] != ranked[:-1]).any(axis=1)))
+    start = start[np.diff(start, append=len(order)) == 2]
+    first, second = order[start], order[start + 1]
+    opposite = _parity(triangles[first]) != _parity(triangles[second])
+    between = opposite & (solids[first] != solids[second])
+    return first[between], second[between]
+
+
+def _parity(triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(k,) do the numbers of corners (k, 3) rise, but for one step, on the way round?"""
+    return (triangles < np.roll(triangles, -1, axis=1)).sum(axis=1) == 2

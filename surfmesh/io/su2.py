@@ -119,7 +119,8 @@ def _content(path: Path, lines: list[str]) -> tuple[NDArray, list[Block]]:
         elif word == "NPOIN":
             found = _below(path, rows, int(value.split()[0]), word)
             points = np.zeros((len(found), 3))
-            points[:, :dimension] = [row[:dimension] for row in found]
+            for axis in range(dimension):
+                points[:, axis] = [float(row[axis]) for row in found]
         elif word == "MARKER_TAG":
             marker = value
         elif word in ("NELEM", "MARKER_ELEMS"):

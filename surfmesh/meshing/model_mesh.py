@@ -136,7 +136,10 @@ def _balanced(model: CadModel, asked: ModelSizing, how: _How, simplify: bool) ->
     def chords(mesh: SurfaceMesh) -> np.ndarray:
         return np.array([asked.of_face(k).chord or np.inf for k in range(len(mesh.surfaces))])
 
-    mesh = balanced_in_rounds(on_surface, chords, solids_of_model)
+    def angles(mesh: SurfaceMesh) -> np.ndarray:
+        return np.array([asked.of_face(k).angle or np.inf for k in range(len(mesh.surfaces))])
+
+    mesh = balanced_in_rounds(on_surface, chords, angles, solids_of_model)
     return mesh.replaced(sizing=asked.base, promises=asked.promises(len(mesh.surfaces)))
 
 

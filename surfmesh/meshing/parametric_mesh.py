@@ -98,6 +98,7 @@ def mesh_parametric(
     mesh = balanced_in_rounds(
         lambda wider, limits: _on_surface(surface, widened(own, wider), optimise, watch, limits),
         lambda _: np.array([chord]),
+        lambda _: np.array([own.angle or np.inf]),
         solids_of_surface,
     )
     made = mesh.sizing

@@ -205,3 +205,49 @@ def test_part_of_a_file_keeps_its_metric(tmp_path):
     part.clear_field_data()
     part.save(path)
     assert read(path).metric_root_3d is None and read(path).uv is not None
+
+
+def test_only_two_solids_share_a_triangle_of_an_ascii_stl(tmp_path):
+    """One that comes again within a solid is a fault of it, and no side of another."""
+    facet = "facet normal 0 0 1\nouter loop\n{}endloop\nendfacet\n"
+    corners = ["vertex 0 0 0\n", "vertex 1 0 0\n", "vertex 0 1 0\n"]
+    ahead, back = facet.format("".join(corners)), facet.format("".join(corners[::-1]))
+    path = tmp_path / "twice.stl"
+    for again in (ahead, back):
+        path.write_text(f"solid a\n{ahead}{again}endsolid a\n")
+        assert "have the same corners" in sm.check(path).problems[0]
+    path.write_text(f"solid a\n{ahead}endsolid a\nsolid b\n{back}endsolid b\n")
+    assert read(path).solid_ids.tolist() == [[0, 1]]
+    path.write_text(f"solid a\n{ahead}endsolid a\nsolid b\n{ahead}endsolid b\n")
+    assert read(path).solid_ids.tolist() == [[0, -1], [1, -1]]
+
+
+def test_nastran_elements_without_a_property_are_one_face(tmp_path):
+    grid = "".join(f"GRID,{k + 1},,{k % 2}.,{k // 2}.,0.\n" for k in range(4))
+    path = tmp_path / "bare.bdf"
+    path.write_text(f"BEGIN BULK\n{grid}CTRIA3,1,,1,2,3\nCTRIA3,2,,2,4,3\nENDDATA\n")
+    assert read(path).face_ids.tolist() == [0, 0]
+
+
+def test_rigid_triangles_of_abaqus_are_triangles(tmp_path):
+    path = tmp_path / "rigid.inp"
+    path.write_text("*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n*ELEMENT, TYPE=R3D3\n1,1,2,3\n")
+    assert read(path).triangles.tolist() == [[0, 1, 2]]
+
+
+def test_su2_without_elements_says_so(tmp_path):
+    path = tmp_path / "none.su2"
+    path.write_text("NDIME= 3\nNELEM= 0\nNPOIN= 0\n")
+    with pytest.raises(FileFormatError, match="there are no triangles in it"):
+        read(path)
+
+
+def test_med_families_without_groups_are_read(saddle, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    path = saddle.save(tmp_path / "bare.med")
+    with h5py.File(path, "r+") as file:
+        del file["surfmesh_groups"]
+        (mesh,) = file["FAS"]
+        for family in file["FAS"][mesh]["ELEME"].values():
+            del family["GRO"]
+    assert np.array_equal(read(path).triangles, saddle.triangles)

@@ -10,6 +10,8 @@ signed_distances: how far triangles lie from their surfaces, and on which side.
 vertex_sites: vertices as their faces see them, steps that move them by given lengths.
 kept_volumes: steps that give solids their exact volumes.
 balanced_vertices: vertices off their surfaces, which then lie on both sides of the triangles.
+turned_edges: edges across which triangles have come to turn by more than ``angle``, as their
+    vertices moved.
 balanced_rounds: meshes of that kind, sizes for nearly twice the chord and smaller where need be.
 edge_collapse: short edges of a finished mesh, collapsed: tiny edges and slivers of a CAD model
     go away.

@@ -26,6 +26,7 @@ from surfmesh.meshing.finishing.balanced_vertices import balanced
 from surfmesh.meshing.finishing.kept_volumes import Solid
 from surfmesh.meshing.finishing.second_order import put_on_curves
 from surfmesh.meshing.finishing.signed_distances import PLACES, signed_distances
+from surfmesh.meshing.finishing.turned_edges import turned_edges
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import with_default_chord
 from surfmesh.sizing.options.model_sizing import ModelSizing
@@ -55,8 +56,8 @@ AMID = 1.04
 lengths it is a little larger beside it."""
 
 FINER, FINEST, COARSEST = 0.9, 0.5, 0.9
-"""Times the size at which the deviation, which falls with its square, would be the chord; bounds
-of the factor in one round."""
+"""Times the size at which the deviation, which falls with its square, would be the chord, or the
+angle, which falls with it, what is asked for; bounds of the factor in one round."""
 
 CELLS, COARSER_CELLS, POINTS = 48, 32, 6
 """Each way, of the rules for a volume, whose results are compared."""
@@ -100,13 +101,14 @@ def widened_model(asked: ModelSizing, wider: float = WIDER) -> ModelSizing:
 def balanced_in_rounds(
     on_surface: Callable[[float, Mapping[int, SizeLimits]], SurfaceMesh],
     chords: Callable[[SurfaceMesh], NDArray[np.float64]],
+    angles: Callable[[SurfaceMesh], NDArray[np.float64]],
     solids: Callable[[SurfaceMesh], list[Solid]],
 ) -> SurfaceMesh:
     """The mesh of the round whose farthest place is nearest, beside its chord.
 
     on_surface: a mesh with its vertices on the surface, sized for so many chords and within limits
-    of the sizes by face. chords: (f,) that its faces are to keep to, infinite for none. solids:
-    whose volumes are kept.
+    of the sizes by face. chords, angles: (f,) that its faces are to keep to, the latter in degrees,
+    infinite for none. solids: whose volumes are kept.
     """
     known: dict[int, SizeLimits] = {}
     nearest, fewest, stalled, tightened = math.inf, math.inf, 0, 0
@@ -116,7 +118,7 @@ def balanced_in_rounds(
         worst = 0.0
         found: dict[int, SizeLimits] = {}
         if moved is not mesh:
-            worst, found = _refinements(moved, mesh.points, chords(mesh))
+            worst, found = _refinements(moved, mesh.points, chords(mesh), angles(mesh))
         left = sum(len(more.sizes) for more in found.values())
         stalled = 0 if worst < nearest or left < fewest else stalled + 1
         if worst < nearest:
@@ -131,10 +133,11 @@ def balanced_in_rounds(
 
 
 def _refinements(
-    mesh: SurfaceMesh, before: NDArray[np.float64], chords: NDArray[np.float64]
-) -> tuple[float, dict[int, SizeLimits]]:
-    """The largest distance of triangles and rims over the chord of their face, and smaller sizes
-    where that is more than one.
+    mesh: SurfaceMesh, before: NDArray[np.float64], chords: NDArray[np.float64],
+    angles: NDArray[np.float64],
+) -> tuple[float, dict[int, SizeLimits]]:  # fmt: skip
+    """The largest distance of triangles and rims over the chord of their face, or angle over what
+    is asked for, and smaller sizes where that is more than one.
 
     before: points (n, 3) on the surface.
     """
@@ -151,6 +154,9 @@ def _refinements(
         np.minimum.at(target, triangles[far], length[far])
     bad = reached > KEPT * chord
     target[bad] *= np.clip(FINER * np.sqrt(chord[bad] / reached[bad]), FINEST, COARSEST)
+    turned, turn = turned_edges(mesh, before, angles)
+    np.minimum.at(target, turned, size[turned] * np.clip(FINER / turn, FINEST, COARSEST))
+    bad[turned] = True
     bad &= target >= (mesh.sizing.min_size or 0.0)
     roots, corners = mesh.metric_root_3d, mesh.uv_triangles
     found: dict[int, SizeLimits] = {}
@@ -167,7 +173,7 @@ def _refinements(
             uv=mesh.uv[own, at],
             metric_root_3d=tensors,
         )
-    return float((reached / chord).max()), found
+    return float(max((reached / chord).max(), turn.max(initial=0.0))), found
 
 
 def _at_rims(

@@ -24,7 +24,7 @@ LEAST = 5e-4
 """Edges shorter than this fraction of the diagonal are collapsed, if ``min_size`` does not say."""
 
 LARGEST_TURN = np.cos(np.radians(45.0))
-"""No triangle that is left turns farther."""
+"""No triangle that is left turns farther, neither at once nor in all."""
 
 INNER, ON_EDGE, CORNER = 0, 1, 2
 """Vertices inside a face give way to those on its edges, these to the model's vertices."""
@@ -102,12 +102,18 @@ class _Work:
         rows = np.array(sorted(self.around(gone) - shared), np.int64)
         if not len(rows):
             return False  # nothing would be left of this part
-        corners = self.triangles[rows]
-        before = _normals(self.old.points[corners])
-        after = _normals(self.old.points[np.where(corners == gone, kept, corners)])
-        size = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
-        turned = np.einsum("ij,ij->i", before, after) < LARGEST_TURN * size
-        return not turned.any() and bool((np.linalg.norm(after, axis=1) > 0.0).all())
+        points, corners = self.old.points, self.triangles[rows]
+        after = _normals(points[np.where(corners == gone, kept, corners)])
+        length = np.linalg.norm(after, axis=1)
+        if not (length > 0.0).all():
+            return False
+        first = self.old.triangles[rows]  # all turns together are one
+        for before in (corners,) if (corners == first).all() else (corners, first):
+            normals = _normals(points[before])
+            least = LARGEST_TURN * np.linalg.norm(normals, axis=1) * length
+            if (np.einsum("ij,ij->i", normals, after) < least).any():
+                return False
+        return True
 
     def collapse(self, gone: int, kept: int) -> list[int]:
         """Do it; returns the neighbours that ``kept`` has now."""

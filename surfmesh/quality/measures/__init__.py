@@ -8,6 +8,7 @@ topology: what kind of surface the triangles form: closed, manifold, oriented, i
 proved_isotopy: can the mesh be deformed into its surface through space?
 proved_topology: is the mesh homeomorphic to what it was made of, and more? By exact predicates.
 against_model: edges and vertices that are not as the model has them: more triangles, or more fans.
+torn_edges: free edges within a surface: a triangle is missing beside them.
 curved: quadratic triangles: area, volume, Jacobian, and their distance from the surface.
 shape: shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose.
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
@@ -23,6 +24,8 @@ inward: closed surfaces whose triangles face their inside: their volume is negat
 Accuracy:
 largest: the largest of many values, without sorting all of them.
 deviation: how far the mesh lies from the true surface, and which triangles face the wrong way.
+off_surface: vertices that lie off the surface of their triangles where no ``chord`` says how far
+    they may.
 folds: triangles turned far from the surface's normals: by the mesher, by loose edges, by the
     surface.
 dihedral: dihedral angles between neighbouring triangles, where the surface itself has no crease.
@@ -42,6 +45,8 @@ Triangles that meet:
 self_intersection: triangles that meet where they share nothing: every pair, by an exact test.
 penetration: how deep two triangles go into each other, and how deep facets of a contact may.
 loose_edges: free rims of faces that lie edge to edge and share nothing: faces that were never sewn.
+coincident_edges: free edges that lie on each other and share no vertices: triangles that were
+    never joined.
 true_depth: how deep the corners of facets lie within the true body of other facets that they meet.
 bodies: bodies of a model that overlap, and those that touch without a common face.
 

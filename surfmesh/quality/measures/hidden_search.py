@@ -29,7 +29,7 @@ from surfmesh.geometry.surface import BoundedSurface
 
 BLOCK = 1 << 13  # boxes looked at together
 ROUNDS = 60  # halvings of a triangle's box at most
-BOXES, BOXES_EACH = 100_000, 4  # most boxes in all: so many, and so many for each triangle
+BOXES, BOXES_EACH = 500_000, 4  # most boxes in all: so many, and so many for each triangle
 NEARLY = 1.02  # of the tolerance: a box counts as within, so that halving comes to an end
 AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
 NO_BOUND = 1e300  # what is more is infinite

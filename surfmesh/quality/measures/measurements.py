@@ -14,6 +14,7 @@ from surfmesh.quality.measures.area_and_volume import Explained, explained, is_k
 from surfmesh.quality.measures.bodies import Bodies, bodies
 from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
+from surfmesh.quality.measures.coincident_edges import coincident_edges
 from surfmesh.quality.measures.curved import (
     CurvedShapes,
     curved_deviation,
@@ -36,6 +37,7 @@ from surfmesh.quality.measures.lengths import (
     size_growth,
 )
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.measures.off_surface import OffSurface, off_surface
 from surfmesh.quality.measures.proof import Proof, proof
 from surfmesh.quality.measures.proved_isotopy import isotopic
 from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
@@ -55,6 +57,7 @@ from surfmesh.quality.measures.tolerances import (
     chord_check,
 )
 from surfmesh.quality.measures.topology import Topology, topology
+from surfmesh.quality.measures.torn_edges import torn_edges
 from surfmesh.quality.measures.unseen import Unseen, unseen
 from surfmesh.result.model_facts import ModelFacts
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -85,6 +88,20 @@ class Measurements:
     def unexpected(self) -> Unexpected:
         """What of the topology is not as in the model."""
         return unexpected(self.mesh, self.topology)
+
+    @cached_property
+    def torn_edges(self) -> NDArray[np.intp]:
+        """Rows of free edges within the surfaces; none where these are not known."""
+        if self.known is None:
+            return np.empty(0, np.intp)
+        return torn_edges(self.known, self.unexpected)
+
+    @cached_property
+    def coincident_edges(self) -> NDArray[np.intp]:
+        """Rows of free edges that lie on each other; none where surfaces say why they are free."""
+        if self.mesh.surfaces:
+            return np.empty(0, np.intp)
+        return coincident_edges(self.mesh)
 
     @property
     def is_curved(self) -> bool:
@@ -160,6 +177,13 @@ class Measurements:
         if self.deviation is None:
             return None
         return both_ways(self.deviation, self.surface_deviation)
+
+    @cached_property
+    def off_surface(self) -> OffSurface | None:
+        """Vertices off their surfaces, where no chord says how far they may be."""
+        if self.known is None or self.deviation is None:
+            return None
+        return off_surface(self.known, self.tolerances)
 
     @cached_property
     def unseen(self) -> Unseen | None:

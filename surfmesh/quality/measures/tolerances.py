@@ -21,6 +21,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
 
+WORTH_ASKING = 0.97  # of the size there: rounds ask for none that is larger (``size_requests.cpp``)
+
 SHOWN = 8  # faces that are named in one line
 
 
@@ -151,7 +153,8 @@ class _Excess(NamedTuple):
     faces: NDArray[np.int32]  # (k,)
     reached: NDArray[np.float64]  # (k,)
     asked: NDArray[np.float64]  # (k,)
-    needed: NDArray[np.float64]  # (k,) the size that would keep to it; infinite: not known
+    size: NDArray[np.float64]  # (k,) target size there; infinite: not known
+    factor: NDArray[np.float64]  # (k,) of it, that would keep to the tolerance
     points: NDArray[np.float64]  # (k, 3)
     by_face: NDArray[np.intp]  # (f,) how many triangles or edges there are in all
     total: int
@@ -164,14 +167,12 @@ def chord_check(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> To
         return ToleranceCheck(None, ())
     faces, reached = mesh.face_ids[far], fit.by_triangle[far]
     chord = tolerances.at(tolerances.chord, faces)
-    needed = np.full(len(far), np.inf)
-    if mesh.sizes is not None:
-        with np.errstate(invalid="ignore"):
-            needed = mesh.sizes[mesh.triangles[far]].mean(axis=1) * np.sqrt(chord / reached)
-    points = mesh.points[mesh.triangles[far]].mean(axis=1)
+    with np.errstate(invalid="ignore"):
+        factor = np.sqrt(chord / reached)
+    size, points = _sizes(mesh, mesh.triangles[far]), mesh.points[mesh.triangles[far]].mean(axis=1)
     by_face = np.bincount(np.maximum(mesh.face_ids, 0))
     excess = _Excess(
-        "chord", far, faces, reached, chord, needed, points, by_face, len(mesh.triangles)
+        "chord", far, faces, reached, chord, size, factor, points, by_face, len(mesh.triangles)
     )
     return _split(tolerances, mesh, excess)
 
@@ -186,22 +187,25 @@ def angle_check(
     faces, reached = dihedrals.faces[far], dihedrals.angles[far]
     angle = tolerances.at(tolerances.angle, faces)
     ends = mesh.edges[dihedrals.edges[far]]
-    needed = np.full(len(far), np.inf)
-    if mesh.sizes is not None:
-        needed = mesh.sizes[ends].mean(axis=1) * angle / reached
-    points = mesh.points[ends].mean(axis=1)
+    size, points = _sizes(mesh, ends), mesh.points[ends].mean(axis=1)
     by_face, total = np.bincount(dihedrals.faces), len(dihedrals.angles)
-    return _split(
-        tolerances,
-        mesh,
-        _Excess("angle", far, faces, reached, angle, needed, points, by_face, total),
+    excess = _Excess(
+        "angle", far, faces, reached, angle, size, angle / reached, points, by_face, total
     )
+    return _split(tolerances, mesh, excess)
+
+
+def _sizes(mesh: SurfaceMesh, corners: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k,) mean target sizes at vertices (k, j); infinite where they are not known."""
+    if mesh.sizes is None:
+        return np.full(len(corners), np.inf)
+    return mesh.sizes[corners].mean(axis=1)
 
 
 def _split(tolerances: Tolerances, mesh: SurfaceMesh, excess: _Excess) -> ToleranceCheck:
     """Those that smaller triangles would mend, and those where ``min_size`` forbids them."""
     least = tolerances.at(tolerances.min_size, excess.faces)
-    forbidden = excess.needed < least
+    forbidden = excess.size * np.minimum(excess.factor, WORTH_ASKING) < least
     violation = None
     free = np.flatnonzero(~forbidden)
     if len(free):

@@ -56,6 +56,25 @@ class DeviationExceeded(Exceeded):
 
 
 @dataclass(frozen=True, kw_only=True)
+class VerticesOffSurface(Problem):
+    """Vertices that do not lie on the surface."""
+
+    kind: Kind = Kind.DEVIATION
+    count: int
+    vertex: int  # the farthest
+    distance: float
+
+    @property
+    def text(self) -> str:
+        """How many, how far, and where the farthest is."""
+        vertices = count_in_words(self.count, "vertex", "vertices")
+        return (
+            f"{vertices} off the surface, by up to {self.distance:.4g}: vertex {self.vertex} at "
+            f"{place_in_words(self.place)}"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class SurfaceDeviationExceeded(Exceeded):
     """The surface lies too far from the mesh. The place is known of its farthest point alone."""
 
@@ -197,6 +216,19 @@ def deviation_exceeded(measured: Measurements) -> Iterator[Problem]:
             place = as_point(mesh.points[mesh.triangles[worst]].mean(axis=0))
         face = _face(measured, worst)
         yield DeviationExceeded(violation=violation, triangles=(worst,), face=face, place=place)
+
+
+def vertices_off_surface(measured: Measurements) -> Iterator[Problem]:
+    """Vertices that do not lie where their triangles' parameters say."""
+    found = measured.off_surface
+    if found is None or not len(found.vertices):
+        return
+    worst = int(np.argmax(found.distance))
+    vertex = int(found.vertices[worst])
+    yield VerticesOffSurface(
+        count=len(found.vertices), vertex=vertex, distance=float(found.distance[worst]),
+        place=as_point(measured.mesh.points[vertex]),
+    )  # fmt: skip
 
 
 def surface_deviation_exceeded(measured: Measurements) -> Iterator[Problem]:

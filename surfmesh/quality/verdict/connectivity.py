@@ -94,6 +94,25 @@ class SheetsApart(Remark):
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class TrianglesNotJoined(Remark):
+    """Free edges that lie on each other and share no vertices."""
+
+    kind: Kind = Kind.EDGES
+    count: int
+    nodes: tuple[int, int]
+
+    @property
+    def text(self) -> str:
+        """How many, and where the first is."""
+        a, b = self.nodes
+        return (
+            f"{self.count:,} free edges lie on each other and share no vertices, first {a}-{b} at "
+            f"{place_in_words(self.place)}: triangles are not joined there; write the file with "
+            "shared vertices"
+        )
+
+
 def solid_in_words(solid: int, name: str) -> str:
     """ "solid 0 (lid)" """
     return f"solid {solid}" + f" ({name})" * bool(name)
@@ -120,6 +139,15 @@ def sheets_apart(measured: Measurements) -> Iterator[Remark]:
     if len(found):
         place = as_point(mesh.points[mesh.edges[found[0]]].mean(axis=0))
         yield SheetsApart(count=len(found), place=place)
+
+
+def triangles_not_joined(measured: Measurements) -> Iterator[Remark]:
+    """What looks whole and is not."""
+    found, mesh = measured.coincident_edges, measured.mesh
+    if len(found):
+        a, b = mesh.edges[found[0]].tolist()
+        place = as_point(mesh.points[[a, b]].mean(axis=0))
+        yield TrianglesNotJoined(count=len(found), nodes=(a, b), place=place)
 
 
 def _solids(measured: Measurements, missing: bool) -> Iterator[Problem]:
@@ -163,6 +191,9 @@ def _edges(measured: Measurements, missing: bool) -> Iterator[Problem]:
     if len(odd.bare_edges) and not missing:
         bare = "with fewer triangles than the model has faces there"
         yield _odd_edges(measured.mesh, odd.bare_edges, Kind.EDGES, bare)
+    if len(measured.torn_edges) and not missing:
+        torn = "with nothing beside them where the surface goes on"
+        yield _odd_edges(measured.mesh, measured.torn_edges, Kind.EDGES, torn)
 
 
 def _odd_edges(mesh: SurfaceMesh, found: NDArray[np.intp], kind: Kind, what: str) -> OddEdges:

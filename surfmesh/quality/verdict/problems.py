@@ -8,6 +8,7 @@ from surfmesh.quality.verdict.accuracy import (
     features_unseen,
     not_proved,
     surface_deviation_exceeded,
+    vertices_off_surface,
 )
 from surfmesh.quality.verdict.area_and_volume import (
     VolumeExceeded,
@@ -37,6 +38,7 @@ def problems(measured: Measurements, faces: FaceRows, prove: bool = False) -> tu
     found += odd_connectivity(measured, missing=bool(missing))
     found += bad_triangles(measured)
     found += deviation_exceeded(measured)
+    found += vertices_off_surface(measured)
     found += (one for one in volumes_exceeded(measured) if isinstance(one, VolumeExceeded))
     found += surface_deviation_exceeded(measured)
     found += features_unseen(measured)

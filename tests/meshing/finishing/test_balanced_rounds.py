@@ -146,3 +146,12 @@ def test_rounds_go_on_while_fewer_places_are_too_far():
     part = sm.from_cadquery(plate.workplane().pushPoints([(-3, 0)]).hole(2.5))
     report = sm.mesh(part, chord=part.diagonal / 600, vertices="balanced").report
     assert report.clean, report.problems
+
+
+@pytest.mark.parametrize("sizes", [{"angle": 15}, {"angle": 10, "size": 0.3}], ids=str)
+@pytest.mark.parametrize("make", [lambda: sm.load("sphere"), drilled], ids=["sphere", "part"])
+def test_the_angle_holds_after_vertices_have_moved(make, sizes):
+    balanced = sm.mesh(make(), vertices="balanced", **sizes)
+    report = sm.check(balanced)
+    assert report.clean, report.problems
+    assert report.angle_max <= sizes["angle"] * (1 + 1e-9)

@@ -65,3 +65,11 @@ def test_a_tiny_hole_stays_a_hole():
     mesh = sm.mesh(sm.from_cadquery(part), sm.Sizing(size=2.0, min_size=1.0), simplify=True)
     report = sm.check(mesh)
     assert report.closed and report.manifold and report.euler == 0
+
+
+@pytest.mark.parametrize("least", [0.1, 0.12])
+def test_many_small_turns_turn_no_triangle_over(least):
+    """Each collapse turned by less than 45 degrees, several of them by more than 90."""
+    part = cq.Workplane().box(2, 1.6, 0.5).faces(">Z").workplane().hole(0.8)
+    mesh = sm.mesh(part.edges("|Z").fillet(0.2), min_size=least, simplify=True)
+    assert sm.check(mesh).clean

@@ -125,3 +125,10 @@ def test_promises_travel_with_the_mesh(rounded, tmp_path, capsys):
     assert main(["check", path, "--surface", "sphere", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["chord"] == 0.01 and found["above_chord_share"] == 0
+
+
+@pytest.mark.parametrize("least", [0.115, 0.119, 0.121])
+def test_sizes_that_min_size_leaves_no_room_below_are_a_limit_and_no_fault(least):
+    """Sizes a little above ``min_size`` are not asked to be smaller: rounds make no request."""
+    report = sm.check(sm.mesh("sphere", min_size=least))
+    assert report.clean and len(report.limits) == 1

@@ -88,3 +88,11 @@ def test_a_pyramid_as_steep_as_a_wall_is_meshed():
     z = "max(0,1-1000*abs(u-0.513))*max(0,1-1000*abs(v-0.487))"
     made = sm.mesh(sm.ParametricSurface("u", "v", z, u=(0, 1), v=(0, 1)), sm.Sizing(chord=0.01))
     assert made.report.clean and made.points[:, 2].max() > 0.99
+
+
+def test_a_sheared_cylinder_is_bounded_by_narrow_boxes():
+    """In (u, v) its triangles are slivers aslant: boxes have to be as narrow as these."""
+    sheared = sm.ParametricSurface(
+        "cos(u+20*v)", "sin(u+20*v)", "v", u=(0, "2*pi"), v=(0, 1)
+    )  # fmt: skip
+    assert sm.check(sm.mesh(sheared, size=0.1)).clean
