@@ -5,6 +5,7 @@
 #include "binding/arrays.hpp"
 #include "quality/face_figures.hpp"
 #include "quality/histogram.hpp"
+#include "quality/largest_values.hpp"
 #include "quality/mesh_arguments.hpp"
 
 namespace surfmesh::binding {
@@ -60,10 +61,39 @@ void bind_face_triangles(nb::module_& m) {
         "of faces (m,), all others (m,).");
 }
 
+void bind_order(nb::module_& m) {
+    m.def(
+        "largest_values",
+        [](const Vector<double>& values, std::size_t count) {
+            Array<std::int32_t> found;
+            {
+                const nb::gil_scoped_release released;
+                found = largest_values(rows<double>(values), count);
+            }
+            return view(found);
+        },
+        nb::arg("values"), nb::arg("count"),
+        "Numbers of the ``count`` largest of values (n,), rising, or of all where there are no "
+        "more; of equal ones those that come first. NaN is as large as infinity.");
+    m.def(
+        "quantile",
+        [](const Vector<double>& values, double fraction) {
+            if (values.shape(0) == 0) throw nb::value_error("values is empty");
+            if (!(fraction >= 0.0 && fraction <= 1.0))
+                throw nb::value_error("fraction is from 0 to 1");
+            const nb::gil_scoped_release released;
+            return quantile(rows<double>(values), fraction);
+        },
+        nb::arg("values"), nb::arg("fraction"),
+        "As ``np.quantile`` has it, of values (n,), n > 0: linear between two of them in their "
+        "order, NaN where one is.");
+}
+
 }  // namespace
 
 void bind_figures(nb::module_& m) {
     bind_face_triangles(m);
+    bind_order(m);
     m.def(
         "face_edge_means",
         [](const FaceNumbers& faces, const Matrix<std::int32_t, 2>& half_edges,

@@ -21,7 +21,6 @@ pairs_of_ranges: ranges of places, one a row, written out as pairs.
 inward: closed surfaces whose triangles face their inside: their volume is negative.
 
 Accuracy:
-largest: the largest of many values, without sorting all of them.
 deviation: how far the mesh lies from the true surface, and which triangles face the wrong way.
 folds: triangles turned far from the surface's normals: by the mesher, by loose edges, by the
     surface.
