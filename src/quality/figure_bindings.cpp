@@ -59,6 +59,25 @@ void bind_face_triangles(nb::module_& m) {
         "Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean "
         "square times area, and how many triangles are marked, not 0, (count,) each; by triangles "
         "of faces (m,), all others (m,).");
+    m.def(
+        "face_angles",
+        [](const FaceNumbers& faces, const Vector<double>& degrees, const Vector<double>& most,
+           std::size_t count) {
+            require_indices(rows<std::int32_t>(faces), count, "faces");
+            require_rows(degrees.shape(0), faces.shape(0), "degrees");
+            if (most.shape(0) != 1) require_rows(most.shape(0), count, "most");
+            FaceAngles found;
+            {
+                const nb::gil_scoped_release released;
+                found = face_angles(rows<std::int32_t>(faces), rows<double>(degrees),
+                                    rows<double>(most), count);
+            }
+            return std::tuple(view(found.largest), view(found.above), view(found.number));
+        },
+        nb::arg("faces"), nb::arg("degrees"), nb::arg("most"), nb::arg("count"),
+        "Of ``count`` faces the largest angle across an edge within, 0 without any, how many are "
+        "above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within "
+        "faces (k,), degrees (k,).");
 }
 
 void bind_order(nb::module_& m) {

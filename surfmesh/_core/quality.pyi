@@ -141,6 +141,16 @@ def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3)
     An edge is open where it is not run along as often one way as the other.
     """
 
+def solid_boxes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    The lowest and the highest coordinates (count, 3) of each solid, infinite without a triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.
+    """
+
+def corner_places(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, places: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and those of uv_triangles (m, 3).
+    """
+
 def hidden_bounds(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], seen: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], whole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Over which triangles (k,), rows of triangles (m, 3) of points (n, 3) and of uv_triangles (m, 3) of uv (q, 2), the surface surely hides nothing: 1, or 0 where its second derivatives do not say so, over triangles cut in four up to ``levels`` times either.
@@ -204,6 +214,11 @@ def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 
     Numbers (k,) of the edges whose two triangles run along them the same way.
     """
 
+def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> int:
+    """
+    The first of so many vertices that belongs to none of triangles (m, 3), or -1.
+    """
+
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
 
@@ -215,6 +230,11 @@ def face_shapes(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
 def face_distances(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (count,) each; by triangles of faces (m,), all others (m,).
+    """
+
+def face_angles(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], degrees: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Of ``count`` faces the largest angle across an edge within, 0 without any, how many are above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within faces (k,), degrees (k,).
     """
 
 def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import quality as core
+from surfmesh.accuracy.dihedral import SLACK
 from surfmesh.quality.measures.face_rows import (
     FaceColumns,
     FaceDeviations,
@@ -13,10 +14,7 @@ from surfmesh.quality.measures.face_rows import (
     FaceRows,
 )
 from surfmesh.quality.measures.measurements import Measurements
-from surfmesh.quality.measures.tolerances import (
-    exceeds_angle,
-    exceeds_chord,
-)
+from surfmesh.quality.measures.tolerances import exceeds_chord
 
 
 def by_face(measured: Measurements) -> FaceRows:
@@ -83,10 +81,8 @@ def _dihedrals(measured: Measurements, count: int) -> FaceDihedrals | None:
     found = measured.dihedral_angles
     if found is None:
         return None
-    largest = np.zeros(count)
-    np.maximum.at(largest, found.faces, found.angles)
-    above = np.bincount(found.faces[exceeds_angle(measured.tolerances, found)], minlength=count)
-    return FaceDihedrals(largest, above, np.bincount(found.faces, minlength=count))
+    most = measured.tolerances.angle[:count] * (1.0 + SLACK)
+    return FaceDihedrals(*core.face_angles(found.faces, found.angles, most, count))
 
 
 def _sizes(

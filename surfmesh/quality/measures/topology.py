@@ -48,18 +48,16 @@ class Topology(NamedTuple):
 
 def topology(mesh: SurfaceMesh) -> Topology:
     """Topology of ``mesh``; vertex numbers must be in range (``mesh.broken_invariant()``)."""
-    n, corners = len(mesh.points), mesh.triangles.reshape(-1)
-    table = mesh.connectivity
-    used = np.zeros(n, bool)
-    used[corners] = True
+    n, table = len(mesh.points), mesh.connectivity
     boundary = table.boundary
     extra = _crowded_half_edges(mesh)
     fans = _fans(mesh, extra)
+    used = fans > 0
     clashing = _clashing(mesh)
-    even = len(corners) > 0 and not len(boundary) and not len(clashing)
+    even = len(mesh.triangles) > 0 and not len(boundary) and not len(clashing)
     even = even and _is_balanced(mesh, extra)
     return Topology(
-        vertices=int(used.sum()),
+        vertices=int(np.count_nonzero(used)),
         edges=len(table.edges),
         triangles=len(mesh.triangles),
         components=_count(vertex_components(mesh), used),
