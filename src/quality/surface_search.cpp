@@ -122,11 +122,18 @@ void SurfaceSearch::look_over(std::span<const std::uint8_t> left_out,
                               std::span<const Weights> places) {
     const Array<std::int32_t> triangles =
         rows_where(mesh_.triangles.size(), [&](std::size_t t) { return left_out[t] == 0; });
+    look_over_each(all_of(triangles), places, AT_ONCE / places.size());
+}
+
+/// Look at places over some triangles, so many of these together.
+void SurfaceSearch::look_over_each(std::span<const std::int32_t> triangles,
+                                   std::span<const Weights> places, std::size_t together) {
+    if (failed_ != NIL) return;
     const std::size_t each = places.size();
-    SurfaceDistances found = surface_distances(mesh_, all_of(triangles), places);
+    SurfaceDistances found = surface_distances(mesh_, triangles, places);
     failed_ = found.failed;
     double* distances = found.distance.data();
-    in_blocks(all_of(triangles), AT_ONCE / each, [&](std::span<const std::int32_t> some) {
+    in_blocks(triangles, together, [&](std::span<const std::int32_t> some) {
         if (failed_ != NIL) return;
         const auto places_of = [&](std::span<const std::int32_t> rows) {
             Array<std::int32_t> triangle, rule;
@@ -165,15 +172,10 @@ void SurfaceSearch::look_closely(std::span<const std::uint8_t> left_out,
     Array<double> worth = by_triangle_;
     for (std::size_t t = 0; t < worth.size(); ++t)
         worth[t] = std::max(worth[t], deviation_.of_each[t]);
-    Array<std::int32_t> triangle, rule;
-    for (const std::int32_t t : largest_values(all_of(worth), count)) {
-        if (left_out[t] != 0) continue;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            triangle.push_back(t);
-            rule.push_back(static_cast<std::int32_t>(k));
-        }
-    }
-    look_at_weights(all_of(triangle), all_of(rule), places, false);
+    Array<std::int32_t> farthest;
+    for (const std::int32_t t : largest_values(all_of(worth), count))
+        if (left_out[t] == 0) farthest.push_back(t);
+    look_over_each(all_of(farthest), places, farthest.size());
 }
 
 /// Points over triangles at weights[rule] of each, looked at together.

@@ -101,6 +101,8 @@ class SurfaceSearch {
     [[nodiscard]] Places places_at(std::span<const std::int32_t> triangle,
                                    std::span<const std::int32_t> rule,
                                    std::span<const Weights> weights);
+    void look_over_each(std::span<const std::int32_t> triangles, std::span<const Weights> places,
+                        std::size_t together);
     void look_at_weights(std::span<const std::int32_t> triangle, std::span<const std::int32_t> rule,
                          std::span<const Weights> weights, bool at_rim);
     Array<double> look_at_points(std::span<const Point3> points,

@@ -95,7 +95,7 @@ class Tolerances(NamedTuple):
         if given is None or 1 < len(given) < count or not len(given):
             given = np.full((1, 3), np.nan)
         chord, angle = (np.where(np.isnan(given[:, k]), np.inf, given[:, k]) for k in (0, 1))
-        least = np.nan_to_num(given[:, 2], nan=0.0)
+        least = np.where(np.isnan(given[:, 2]), 0.0, given[:, 2])
         uniform = bool((chord == chord[0]).all() and (angle == angle[0]).all())
         return cls(chord, angle, least, uniform)
 

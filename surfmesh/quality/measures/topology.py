@@ -62,7 +62,9 @@ def topology(mesh: SurfaceMesh) -> Topology:
         triangles=len(mesh.triangles),
         components=_count(vertex_components(mesh), used),
         boundary_edges=len(boundary),
-        boundary_loops=_count(components(n, boundary), np.unique(boundary)),
+        boundary_loops=(
+            _count(components(n, boundary), np.unique(boundary)) if len(boundary) else 0
+        ),
         crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
         pinched_vertices=np.flatnonzero(fans > 1).astype(np.int32),
         clashing_edges=clashing,
@@ -112,6 +114,8 @@ def half_edges_along(
 def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Half-edges (k,) of edges of three triangles or more, in order of edges, and the edges."""
     crowded = np.flatnonzero(mesh.connectivity.uses > 2)
+    if not len(crowded):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
     half_edges, row = half_edges_along(mesh, mesh.edges[crowded])
     order = np.argsort(row, kind="stable")
     return half_edges[order], crowded[row[order]]
@@ -120,6 +124,8 @@ def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[n
 def _is_balanced(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> bool:
     """Are crowded edges run along as often one way as the other?"""
     half_edges, edges = crowded
+    if not len(edges):
+        return True
     corners = mesh.triangles.reshape(-1)
     ahead = corners[half_edges] == mesh.edges[edges, 0]
     return not np.bincount(edges, np.where(ahead, 1.0, -1.0)).any()
