@@ -30,7 +30,7 @@ def by_face(measured: Measurements) -> FaceRows:
         numbers, faces = np.unique(faces, return_inverse=True)
     elif len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
         return FaceRows()
-    count, exact = len(numbers), measured.facts.faces
+    count = len(numbers)
     rows = faces.astype(np.int32, copy=False)
     triangles, area, alpha_sum, alpha_min = core.face_shapes(rows, shape.area, shape.alpha, count)
     size, target = _sizes(measured, rows, count)
@@ -41,7 +41,7 @@ def by_face(measured: Measurements) -> FaceRows:
         FaceColumns(
             mesh=mesh,
             numbers=numbers,
-            known=[exact[face] if 0 <= face < len(exact) else None for face in numbers.tolist()],
+            facts=measured.facts.faces,
             triangles=triangles,
             area=area,
             alpha_sum=alpha_sum,
@@ -50,8 +50,7 @@ def by_face(measured: Measurements) -> FaceRows:
             target=target,
             fits=_deviations(measured, rows, count),
             dihedrals=_dihedrals(measured, count),
-            chords=tolerances.of_each(tolerances.chord, numbers),
-            angles=tolerances.of_each(tolerances.angle, numbers),
+            tolerances=tolerances,
             limits=limits,
         )
     )

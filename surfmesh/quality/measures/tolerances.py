@@ -107,12 +107,8 @@ class Tolerances(NamedTuple):
 
     def one(self, values: NDArray[np.float64], face: int) -> float | None:
         """Of one face; None where nothing is asked for."""
-        return self.of_each(values, np.array([face]))[0]
-
-    def of_each(self, values: NDArray[np.float64], faces: NDArray) -> list[float | None]:
-        """Of faces (f,); None where nothing is asked for."""
-        asked = self.at(values, faces).tolist()
-        return [value if 0.0 < value < np.inf else None for value in asked]
+        asked = float(values[min(max(face, 0), len(values) - 1)])
+        return asked if 0.0 < asked < np.inf else None
 
     @property
     def base_chord(self) -> float | None:
