@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "binding/arrays.hpp"
-#include "quality/corner_places.hpp"
 #include "quality/dense_deviation.hpp"
 #include "quality/enclosed_volumes.hpp"
 #include "quality/explained_losses.hpp"
@@ -17,7 +16,6 @@
 #include "quality/mesh_deviation.hpp"
 #include "quality/plane_triangles.hpp"
 #include "quality/sampled_surface.hpp"
-#include "quality/solid_boxes.hpp"
 #include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -268,50 +266,6 @@ void bind_solids(nb::module_& m) {
         "way as the other.");
 }
 
-void bind_places(nb::module_& m) {
-    m.def(
-        "solid_boxes",
-        [](const Points3& points, const Triangles& triangles, const Matrix<std::int32_t, 2>& solids,
-           std::size_t count) {
-            require_corners(triangles, points.shape(0), "triangles");
-            require_rows(solids.shape(0), triangles.shape(0), "solids");
-            for (const std::int32_t solid : std::span(solids.data(), solids.size()))
-                if (solid >= static_cast<std::int64_t>(count))
-                    throw nb::value_error("solids has an index that is out of range");
-            const std::span<const std::array<std::int32_t, 2>> beside{
-                reinterpret_cast<const std::array<std::int32_t, 2>*>(solids.data()),
-                solids.shape(0)};
-            SolidBoxes found;
-            {
-                const nb::gil_scoped_release released;
-                found = solid_boxes(rows<Point3>(points), rows<TriangleCorners>(triangles), beside,
-                                    count);
-            }
-            return std::tuple(view(found.low), view(found.high));
-        },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("solids"), nb::arg("count"),
-        "The lowest and the highest coordinates (count, 3) of each solid, infinite without a "
-        "triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.");
-    m.def(
-        "corner_places",
-        [](const Triangles& triangles, const Triangles& uv_triangles, std::size_t vertices,
-           std::size_t places) {
-            require_corners(triangles, vertices, "triangles");
-            require_corners(uv_triangles, places, "uv_triangles");
-            require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
-            Array<std::int32_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = corner_places(rows<TriangleCorners>(triangles),
-                                      rows<TriangleCorners>(uv_triangles), vertices, places);
-            }
-            return view(found);
-        },
-        nb::arg("triangles"), nb::arg("uv_triangles"), nb::arg("vertices"), nb::arg("places"),
-        "How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and "
-        "those of uv_triangles (m, 3).");
-}
-
 void bind_hidden_bounds(nb::module_& m) {
     m.def(
         "hidden_bounds",
@@ -414,7 +368,6 @@ void bind_quality(nb::module_& m) {
     bind_stars(m);
     bind_surface_search(m);
     bind_solids(m);
-    bind_places(m);
     bind_hidden_bounds(m);
     bind_area_and_volume(m);
     bind_mesh_edges(m);

@@ -1,12 +1,15 @@
 #include <nanobind/stl/tuple.h>
 
+#include <array>
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "quality/corner_places.hpp"
 #include "quality/face_figures.hpp"
 #include "quality/histogram.hpp"
 #include "quality/largest_values.hpp"
 #include "quality/mesh_arguments.hpp"
+#include "quality/solid_boxes.hpp"
 
 namespace surfmesh::binding {
 
@@ -80,6 +83,54 @@ void bind_face_triangles(nb::module_& m) {
         "faces (k,), degrees (k,).");
 }
 
+void require_vertices(const Triangles& triangles, std::size_t count, const char* what) {
+    require_indices(std::span(triangles.data(), triangles.size()), count, what);
+}
+
+void bind_places(nb::module_& m) {
+    m.def(
+        "solid_boxes",
+        [](const Points3& points, const Triangles& triangles, const Matrix<std::int32_t, 2>& solids,
+           std::size_t count) {
+            require_vertices(triangles, points.shape(0), "triangles");
+            require_rows(solids.shape(0), triangles.shape(0), "solids");
+            for (const std::int32_t solid : std::span(solids.data(), solids.size()))
+                if (solid >= static_cast<std::int64_t>(count))
+                    throw nb::value_error("solids has an index that is out of range");
+            const std::span<const std::array<std::int32_t, 2>> beside{
+                reinterpret_cast<const std::array<std::int32_t, 2>*>(solids.data()),
+                solids.shape(0)};
+            SolidBoxes found;
+            {
+                const nb::gil_scoped_release released;
+                found = solid_boxes(rows<Point3>(points), rows<TriangleCorners>(triangles), beside,
+                                    count);
+            }
+            return std::tuple(view(found.low), view(found.high));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("solids"), nb::arg("count"),
+        "The lowest and the highest coordinates (count, 3) of each solid, infinite without a "
+        "triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.");
+    m.def(
+        "corner_places",
+        [](const Triangles& triangles, const Triangles& uv_triangles, std::size_t vertices,
+           std::size_t places) {
+            require_vertices(triangles, vertices, "triangles");
+            require_vertices(uv_triangles, places, "uv_triangles");
+            require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
+            Array<std::int32_t> found;
+            {
+                const nb::gil_scoped_release released;
+                found = corner_places(rows<TriangleCorners>(triangles),
+                                      rows<TriangleCorners>(uv_triangles), vertices, places);
+            }
+            return view(found);
+        },
+        nb::arg("triangles"), nb::arg("uv_triangles"), nb::arg("vertices"), nb::arg("places"),
+        "How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and "
+        "those of uv_triangles (m, 3).");
+}
+
 void bind_order(nb::module_& m) {
     m.def(
         "largest_values",
@@ -113,6 +164,7 @@ void bind_order(nb::module_& m) {
 void bind_figures(nb::module_& m) {
     bind_face_triangles(m);
     bind_order(m);
+    bind_places(m);
     m.def(
         "face_edge_means",
         [](const FaceNumbers& faces, const Matrix<std::int32_t, 2>& half_edges,

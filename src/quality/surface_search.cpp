@@ -63,34 +63,6 @@ Array<std::int32_t> rows_where(std::size_t count, const Test& test) {
     return rows;
 }
 
-/// What is seen of some segments between their nodes.
-struct BetweenNodes {
-    Array<std::int32_t> segments;
-    Array<Point3> points;
-    Array<double> off_arc;
-};
-
-/// Of those of some segments that have an edge.
-BetweenNodes between_nodes(const EdgeSegments& all, std::span<const std::int32_t> some,
-                           std::span<const double> fractions, double on_curve) {
-    Array<std::int32_t> there, edges;
-    Array<std::array<double, 2>> ends;
-    Array<std::array<Vertex, 2>> nodes;
-    for (const std::int32_t k : some) {
-        const std::int32_t edge = all.edges[k];
-        if (edge < 0 || static_cast<std::size_t>(edge) >= all.curves.size()) continue;
-        there.push_back(k);
-        edges.push_back(edge);
-        ends.push_back(all.ends[k]);
-        nodes.push_back(all.nodes[k]);
-    }
-    SegmentSamples seen = segment_samples(
-        {all.curves, all.limits, all_of(edges), all_of(ends), all_of(nodes), all.points}, fractions,
-        on_curve);
-    for (std::int32_t& k : seen.segments) k = there[k];
-    return {std::move(seen.segments), std::move(seen.points), std::move(seen.off_arc)};
-}
-
 }  // namespace
 
 SurfaceSearch::SurfaceSearch(const MeasuredMesh& mesh, const KnownDeviation& deviation,
@@ -233,7 +205,7 @@ Array<std::int32_t> SurfaceSearch::look_at_middles(const SidedSegments& all, dou
     const EdgeSegments& given = all.segments;
     const Array<std::int32_t> some =
         rows_where(all.sides.size(), [&](std::size_t k) { return all.sides[k].half_edge != NIL; });
-    const BetweenNodes seen = between_nodes(given, all_of(some), {&MIDDLE, 1}, on_curve);
+    const SegmentSamples seen = samples_of_some(given, all_of(some), {&MIDDLE, 1}, on_curve);
     Array<std::int32_t> open;
     for (const bool at_rim : {true, false}) {
         const Array<std::int32_t> rows = rows_where(seen.segments.size(), [&](std::size_t row) {
@@ -264,7 +236,7 @@ Array<std::int32_t> SurfaceSearch::look_at_middles(const SidedSegments& all, dou
 void SurfaceSearch::look_between(const SidedSegments& all, std::span<const std::int32_t> segments,
                                  std::span<const double> fractions, double on_curve) {
     const std::size_t each = fractions.size();
-    const BetweenNodes seen = between_nodes(all.segments, segments, fractions, on_curve);
+    const SegmentSamples seen = samples_of_some(all.segments, segments, fractions, on_curve);
     for (const bool at_rim : {true, false}) {
         const Array<std::int32_t> rows = rows_where(seen.segments.size(), [&](std::size_t row) {
             return (all.sides[seen.segments[row]].twin == NIL) == at_rim;

@@ -141,16 +141,6 @@ def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3)
     An edge is open where it is not run along as often one way as the other.
     """
 
-def solid_boxes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
-    """
-    The lowest and the highest coordinates (count, 3) of each solid, infinite without a triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.
-    """
-
-def corner_places(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, places: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-    """
-    How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and those of uv_triangles (m, 3).
-    """
-
 def hidden_bounds(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], seen: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], whole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Over which triangles (k,), rows of triangles (m, 3) of points (n, 3) and of uv_triangles (m, 3) of uv (q, 2), the surface surely hides nothing: 1, or 0 where its second derivatives do not say so, over triangles cut in four up to ``levels`` times either.
@@ -245,6 +235,16 @@ def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,),
 def quantile(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: float) -> float:
     """
     As ``np.quantile`` has it, of values (n,), n > 0: linear between two of them in their order, NaN where one is.
+    """
+
+def solid_boxes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    The lowest and the highest coordinates (count, 3) of each solid, infinite without a triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.
+    """
+
+def corner_places(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, places: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and those of uv_triangles (m, 3).
     """
 
 def face_edge_means(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
