@@ -18,7 +18,7 @@ constexpr std::size_t FIRST_FEW = 64;         // whose nearest triangle is searc
 constexpr std::size_t MORE_EACH_TIME = 4;     // times as many as before
 constexpr std::size_t MOST_COMPARED = 2'000;  // beyond the chord, compared with every triangle
 constexpr std::size_t AMONG_ALL = 16;         // compared with every triangle in the end, at most
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double ANY_DISTANCE = std::numeric_limits<double>::infinity();
 
 template <class T>
 std::span<const T> all_of(const Array<T>& values) {
@@ -87,7 +87,7 @@ bool SurfaceSearch::is_far(std::int32_t triangle) const {
 
 /// The distance up to which it does not matter which triangle is the nearest.
 double SurfaceSearch::enough(std::int32_t triangle) const {
-    return is_far(triangle) ? INFINITE : chord_of(triangle);
+    return is_far(triangle) ? ANY_DISTANCE : chord_of(triangle);
 }
 
 void SurfaceSearch::look_over(std::span<const std::uint8_t> left_out,

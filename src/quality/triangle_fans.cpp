@@ -74,7 +74,7 @@ std::optional<Array<std::int64_t>> single_fans(std::span<const TriangleCorners> 
     return fans;
 }
 
-constexpr std::size_t FEW = 8;  // things that are compared pair by pair
+constexpr std::size_t COMPARED_IN_PAIRS = 8;  // things that are compared pair by pair
 
 /// Are two of a few things alike, by a key?
 template <class Thing, class Key>
@@ -146,7 +146,7 @@ bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::siz
     const auto key = [](const Corners& c) { return Others(c.middle, c.high); };
     for (std::size_t v = 0; v < vertices; ++v) {
         const std::span<Corners> here{members.data() + first[v], first[v + 1] - first[v]};
-        if (here.size() <= FEW) {
+        if (here.size() <= COMPARED_IN_PAIRS) {
             if (has_two_alike(std::span<const Corners>(here), key)) return true;
             continue;
         }
