@@ -116,7 +116,9 @@ def model_or_surface(thing: Any) -> Surface | CadModel:
         return load(thing)
     # a class that nobody has imported has no instances
     home = sys.modules.get("surfmesh.cad.model.cad_model")
-    if isinstance(thing, Surface) or (home is not None and isinstance(thing, home.CadModel)):
+    if home is not None and isinstance(thing, home.CadModel):
+        return thing
+    if isinstance(thing, Surface):  # by all that a surface can do: it takes longer
         return thing
     if not _is_cad(thing):
         raise SurfaceError(

@@ -18,13 +18,14 @@
 #include "quality/sampled_surface.hpp"
 #include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
-#include "quality/triangle_stars.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
 void bind_least_triangles(nb::module_& m);
 void bind_segments(nb::module_& m);
+void bind_stars(nb::module_& m);
+void bind_surface_search(nb::module_& m);
 
 template <>
 struct Row<float> : RowOf<float, 1> {};
@@ -35,17 +36,6 @@ namespace {
 
 void require_corners(const Triangles& triangles, std::size_t count, const char* what) {
     require_indices(std::span(triangles.data(), triangles.size()), count, what);
-}
-
-/// A number of each of so many things, found with the interpreter released.
-template <class Work>
-auto number_of_each(std::size_t count, const Work& work) {
-    Array<double> found(count);
-    {
-        const nb::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) found[i] = work(i);
-    }
-    return view(found);
 }
 
 void bind_surface_points(nb::module_& m) {
@@ -254,68 +244,6 @@ void bind_creases(nb::module_& m) {
         "of the diagonal of the face's triangles.");
 }
 
-void bind_stars(nb::module_& m) {
-    nb::class_<TriangleStars>(m, "TriangleStars",
-                              "The triangles at each vertex, and distances of points from them.")
-        .def(
-            "__init__",
-            [](TriangleStars* self, const Points3& points, const Triangles& triangles) {
-                require_corners(triangles, points.shape(0), "triangles");
-                new (self) TriangleStars(rows<Point3>(points), rows<TriangleCorners>(triangles));
-            },
-            nb::arg("points"), nb::arg("triangles"), "points (n, 3), triangles (m, 3): copied.")
-        .def(
-            "distances",
-            [](const TriangleStars& stars, const Points3& places, const Numbers& triangle) {
-                require_rows(triangle.shape(0), places.shape(0), "triangle");
-                require_indices(rows<std::int32_t>(triangle), stars.triangles(), "triangle");
-                return number_of_each(places.shape(0), [&](std::size_t i) {
-                    return stars.from(rows<Point3>(places)[i], triangle.data()[i]);
-                });
-            },
-            nb::arg("places"), nb::arg("triangle"),
-            "Distance (k,) of places (k, 3) from one triangle each (k,).")
-        .def(
-            "walk",
-            [](const TriangleStars& stars, const Points3& places, const Numbers& triangle,
-               const Vector<double>& distance) {
-                require_rows(triangle.shape(0), places.shape(0), "triangle");
-                require_rows(distance.shape(0), places.shape(0), "distance");
-                require_indices(rows<std::int32_t>(triangle), stars.triangles(), "triangle");
-                return number_of_each(places.shape(0), [&](std::size_t i) {
-                    return stars.walk(rows<Point3>(places)[i], triangle.data()[i],
-                                      distance.data()[i]);
-                });
-            },
-            nb::arg("places"), nb::arg("triangle"), nb::arg("distance"),
-            "The least of the distances (k,) known of places (k, 3) and those from the triangles "
-            "that are met from triangle (k,) on, from neighbour to nearer neighbour.")
-        .def(
-            "distance_from_all",
-            [](const TriangleStars& stars, const std::array<double, 3>& place, double distance) {
-                const nb::gil_scoped_release released;
-                return stars.from_all({place[0], place[1], place[2]}, distance);
-            },
-            nb::arg("place"), nb::arg("distance"),
-            "The less of the distance known of a place and that from all triangles.")
-        .def(
-            "distances_from_stars",
-            [](const TriangleStars& stars, const Points3& places,
-               const nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>&
-                   vertices) {
-                require_rows(vertices.shape(0), places.shape(0), "vertices");
-                require_indices(std::span(vertices.data(), vertices.size()), stars.vertices(),
-                                "vertices");
-                const std::size_t count = vertices.shape(1);
-                return number_of_each(places.shape(0), [&](std::size_t i) {
-                    return stars.from_stars(rows<Point3>(places)[i],
-                                            {vertices.data() + i * count, count});
-                });
-            },
-            nb::arg("places"), nb::arg("vertices"),
-            "Distance (k,) of places (k, 3) from all triangles at vertices (k, j).");
-}
-
 void bind_solids(nb::module_& m) {
     m.def(
         "solid_counts",
@@ -438,6 +366,7 @@ void bind_quality(nb::module_& m) {
     bind_dense_deviation(m);
     bind_creases(m);
     bind_stars(m);
+    bind_surface_search(m);
     bind_solids(m);
     bind_hidden_bounds(m);
     bind_area_and_volume(m);

@@ -56,7 +56,9 @@ double largest_of(std::span<const double> distances) {
 }
 
 constexpr double ON_CYLINDER = 1e-9;  // of a triangle's size: so near to r(u, v) are its corners
-constexpr double TURN = 1.0;          // radians around the axis from corner to corner, at most
+// radians around the axis from corner to corner, at most: holes of four sides are in. Below pi the
+// nearest point lies between the corners
+constexpr double TURN = 1.6;
 
 /// A cylinder, as far as distances go.
 struct Cylinder {

@@ -165,6 +165,15 @@ void bind_fans(nb::module_& m) {
         nb::arg("triangles"), nb::arg("half_edges"), nb::arg("uses"),
         "Numbers (k,) of the edges whose two triangles run along them the same way.");
     m.def(
+        "unused_vertex",
+        [](const VertexTriples& triangles, std::size_t vertices) {
+            require_indices(all_numbers(triangles), vertices, "triangles");
+            const nb::gil_scoped_release released;
+            return unused_vertex(rows<TriangleCorners>(triangles), vertices);
+        },
+        nb::arg("triangles"), nb::arg("vertices"),
+        "The first of so many vertices that belongs to none of triangles (m, 3), or -1.");
+    m.def(
         "has_repeated_triangles",
         [](const VertexTriples& triangles, std::size_t vertices) {
             require_indices(all_numbers(triangles), vertices, "triangles");

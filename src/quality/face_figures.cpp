@@ -41,6 +41,20 @@ FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<cons
     return found;
 }
 
+FaceAngles face_angles(std::span<const std::int32_t> faces, std::span<const double> degrees,
+                       std::span<const double> most, std::size_t count) {
+    FaceAngles found{Array<double>(count, 0.0), Array<std::int64_t>(count, 0),
+                     Array<std::int64_t>(count, 0)};
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        const std::int32_t face = faces[k];
+        double& largest = found.largest[face];
+        if (degrees[k] > largest || std::isnan(degrees[k])) largest = degrees[k];
+        found.above[face] += degrees[k] > most[most.size() == 1 ? 0 : face] ? 1 : 0;
+        ++found.number[face];
+    }
+    return found;
+}
+
 Array<double> face_edge_means(std::span<const std::int32_t> faces,
                               std::span<const EdgeTable::Sides> half_edges,
                               std::span<const double> values, std::size_t count) {

@@ -33,6 +33,16 @@ FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<cons
                              std::span<const double> mean_square, std::span<const double> area,
                              std::span<const std::uint8_t> marked, std::size_t count);
 
+/// Of each face.
+struct FaceAngles {
+    Array<double> largest;              // 0 without edges
+    Array<std::int64_t> above, number;  // edges whose angle is above that of the face; all edges
+};
+
+/// By edges within faces, and the angles across them. most: of each face, or one of all.
+FaceAngles face_angles(std::span<const std::int32_t> faces, std::span<const double> degrees,
+                       std::span<const double> most, std::size_t count);
+
 /// The mean of a value over the edges of each face; an edge between two faces counts for both.
 Array<double> face_edge_means(std::span<const std::int32_t> faces,
                               std::span<const EdgeTable::Sides> half_edges,

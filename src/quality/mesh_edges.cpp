@@ -96,12 +96,20 @@ EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<con
                            std::size_t vertices) {
     EdgeExtremes found{Array<double>(vertices, 0.0),
                        Array<double>(vertices, std::numeric_limits<double>::infinity())};
-    for (std::size_t k = 0; k < edges.size(); ++k)
+    bool is_number = true;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const double length = lengths[k];
+        is_number &= length == length;
         for (const Vertex v : {edges[k].lower, edges[k].higher}) {
-            const double length = lengths[k];
-            found.longest[v] = larger_number(found.longest[v], length);
-            if (length < found.shortest[v] || length != length) found.shortest[v] = length;
+            found.longest[v] = std::max(found.longest[v], length);    // no branch: nobody could
+            found.shortest[v] = std::min(found.shortest[v], length);  // foretell it
         }
+    }
+    if (is_number) return found;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+        if (std::isnan(lengths[k]))
+            for (const Vertex v : {edges[k].lower, edges[k].higher})
+                found.longest[v] = found.shortest[v] = lengths[k];
     return found;
 }
 

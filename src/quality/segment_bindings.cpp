@@ -3,30 +3,11 @@
 #include <tuple>
 #include <vector>
 
-#include "quality/mesh_arguments.hpp"
-#include "quality/segment_samples.hpp"
+#include "quality/segment_arguments.hpp"
 
 namespace surfmesh::binding {
 
 void bind_segments(nb::module_& m);
-
-namespace {
-
-/// Curves by edge; None for an edge without one.
-std::vector<const Curve*> curves_of(const nb::list& given) {
-    std::vector<const Curve*> curves;
-    curves.reserve(given.size());
-    for (const nb::handle curve : given)
-        curves.push_back(curve.is_none() ? nullptr : &nb::cast<const Curve&>(curve));
-    return curves;
-}
-
-template <class Row, class Given>
-std::span<const Row> rows_of(const Given& given) {
-    return {reinterpret_cast<const Row*>(given.data()), given.shape(0)};
-}
-
-}  // namespace
 
 void bind_segments(nb::module_& m) {
     m.def(
@@ -35,18 +16,8 @@ void bind_segments(nb::module_& m) {
            const Matrix<double, 2>& ends, const Matrix<std::int32_t, 2>& segments,
            const Points3& points, const Vector<double>& fractions, double on_curve) {
             const std::vector<const Curve*> known = curves_of(curves);
-            require_rows(limits.shape(0), known.size(), "limits");
+            const EdgeSegments all = edge_segments(known, limits, edges, ends, segments, points);
             require_indices(rows<std::int32_t>(edges), known.size(), "edges");
-            require_rows(ends.shape(0), edges.shape(0), "ends");
-            require_rows(segments.shape(0), edges.shape(0), "segments");
-            require_indices(std::span(segments.data(), segments.size()), points.shape(0),
-                            "segments");
-            const EdgeSegments all{known,
-                                   rows_of<ParameterRange>(limits),
-                                   rows<std::int32_t>(edges),
-                                   rows_of<std::array<double, 2>>(ends),
-                                   rows_of<std::array<Vertex, 2>>(segments),
-                                   rows<Point3>(points)};
             SegmentSamples found;
             {
                 const nb::gil_scoped_release released;

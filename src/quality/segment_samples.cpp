@@ -100,4 +100,28 @@ SegmentSamples segment_samples(const EdgeSegments& all, std::span<const double> 
     return sampling.found();
 }
 
+SegmentSamples samples_of_some(const EdgeSegments& all, std::span<const std::int32_t> some,
+                               std::span<const double> fractions, double on_curve) {
+    Array<std::int32_t> there, edges;
+    Array<std::array<double, 2>> ends;
+    Array<std::array<Vertex, 2>> nodes;
+    for (const std::int32_t k : some) {
+        const std::int32_t edge = all.edges[k];
+        if (edge < 0 || static_cast<std::size_t>(edge) >= all.curves.size()) continue;
+        there.push_back(k);
+        edges.push_back(edge);
+        ends.push_back(all.ends[k]);
+        nodes.push_back(all.nodes[k]);
+    }
+    SegmentSamples found = segment_samples({all.curves,
+                                            all.limits,
+                                            {edges.data(), edges.size()},
+                                            {ends.data(), ends.size()},
+                                            {nodes.data(), nodes.size()},
+                                            all.points},
+                                           fractions, on_curve);
+    for (std::int32_t& k : found.segments) k = there[k];
+    return found;
+}
+
 }  // namespace surfmesh

@@ -41,4 +41,8 @@ struct SegmentSamples {
 SegmentSamples segment_samples(const EdgeSegments& all, std::span<const double> fractions,
                                double on_curve);
 
+/// The same of some of the segments, by their numbers, as far as their edge is one of those known.
+SegmentSamples samples_of_some(const EdgeSegments& all, std::span<const std::int32_t> some,
+                               std::span<const double> fractions, double on_curve);
+
 }  // namespace surfmesh

@@ -74,6 +74,17 @@ std::optional<Array<std::int64_t>> single_fans(std::span<const TriangleCorners> 
     return fans;
 }
 
+constexpr std::size_t COMPARED_IN_PAIRS = 8;  // things that are compared pair by pair
+
+/// Are two of a few things alike, by a key?
+template <class Thing, class Key>
+bool has_two_alike(std::span<const Thing> things, const Key& key) {
+    for (std::size_t k = 1; k < things.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (key(things[j]) == key(things[k])) return true;
+    return false;
+}
+
 }  // namespace
 
 Array<std::int64_t> triangle_fans(std::span<const TriangleCorners> triangles, std::size_t vertices,
@@ -105,6 +116,14 @@ Array<std::int32_t> clashing_edges(std::span<const TriangleCorners> triangles,
     return clashing;
 }
 
+Vertex unused_vertex(std::span<const TriangleCorners> triangles, std::size_t vertices) {
+    Array<std::uint8_t> is_used(vertices, 0);
+    for (const TriangleCorners& t : triangles)
+        for (const Vertex v : {t.a, t.b, t.c}) is_used[v] = 1;
+    const std::uint8_t* const unused = std::find(is_used.begin(), is_used.end(), 0);
+    return unused == is_used.end() ? NIL : static_cast<Vertex>(unused - is_used.begin());
+}
+
 bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::size_t vertices) {
     using Others = std::pair<Vertex, Vertex>;  // of a triangle, without its lowest corner
     const auto sorted = [](const TriangleCorners& t) {
@@ -127,7 +146,10 @@ bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::siz
     const auto key = [](const Corners& c) { return Others(c.middle, c.high); };
     for (std::size_t v = 0; v < vertices; ++v) {
         const std::span<Corners> here{members.data() + first[v], first[v + 1] - first[v]};
-        if (here.size() < 2) continue;
+        if (here.size() <= COMPARED_IN_PAIRS) {
+            if (has_two_alike(std::span<const Corners>(here), key)) return true;
+            continue;
+        }
         std::sort(here.begin(), here.end(),
                   [&](const Corners& a, const Corners& b) { return key(a) < key(b); });
         for (std::size_t k = 1; k < here.size(); ++k)

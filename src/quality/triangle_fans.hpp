@@ -27,6 +27,9 @@ Array<std::int32_t> clashing_edges(std::span<const TriangleCorners> triangles,
                                    std::span<const EdgeTable::Sides> sides,
                                    std::span<const std::int32_t> uses);
 
+/// The first vertex that belongs to no triangle, or NIL.
+Vertex unused_vertex(std::span<const TriangleCorners> triangles, std::size_t vertices);
+
 /// Have two triangles the same three corners, in any order?
 bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::size_t vertices);
 

@@ -6,7 +6,7 @@
 //       \ / \ /
 //        o---o
 //
-// In: points and triangles, which are copied; all numbers are in range. They do not change.
+// In: points and triangles, which outlive the stars; all numbers are in range. Nothing changes.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ class TriangleStars {
                 static_cast<std::size_t>(first_[vertex + 1] - first_[vertex])};
     }
 
-    Array<Point3> points_;
-    Array<TriangleCorners> corners_;
+    std::span<const Point3> points_;
+    std::span<const TriangleCorners> corners_;
     Array<std::int32_t> members_, first_;
 };
 

@@ -172,13 +172,14 @@ Array<std::int64_t> curve_places(const Array<FramePoint>& points,
     return places;
 }
 
-/// The numbers of places in their order, equal ones as they are: a digit after the other.
+/// The numbers of places in their order, a digit after the other: as far as twelve bits of each
+/// coordinate tell them apart, others as they are.
 Array<std::int32_t> sorted_numbers(const Array<std::int64_t>& places) {
-    constexpr int BITS = 12, ALL_BITS = 60;
+    constexpr int BITS = 12, IGNORED_BITS = 24, ALL_BITS = 60;
     constexpr std::int64_t DIGITS = 1 << BITS;
     Array<std::int32_t> order(places.size()), next(places.size());
     std::iota(order.begin(), order.end(), 0);
-    for (int shift = 0; shift < ALL_BITS; shift += BITS) {
+    for (int shift = IGNORED_BITS; shift < ALL_BITS; shift += BITS) {
         const auto digit = [&](std::int64_t place) { return place >> shift & (DIGITS - 1); };
         Array<std::size_t> first(DIGITS + 1, 0);
         for (const std::int64_t place : places) ++first[digit(place) + 1];

@@ -2,7 +2,7 @@
 What a report measures of a finished mesh: its distance from its surfaces and back.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated
 
 import numpy
@@ -76,7 +76,7 @@ class TriangleStars:
     """The triangles at each vertex, and distances of points from them."""
 
     def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
-        """points (n, 3), triangles (m, 3): copied."""
+        """points (n, 3), triangles (m, 3): kept, not copied."""
 
     def distances(self, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
         """Distance (k,) of places (k, 3) from one triangle each (k,)."""
@@ -91,6 +91,48 @@ class TriangleStars:
 
     def distances_from_stars(self, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
         """Distance (k,) of places (k, 3) from all triangles at vertices (k, j)."""
+
+class SurfaceSearch:
+    """
+    How far points of the surfaces lie from a mesh: the largest distance over each triangle, and the farthest point.
+    """
+
+    def __init__(self, surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], deviation: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], largest: float, chord: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_off_face: Callable) -> None:
+        """
+        The mesh is as for ``mesh_deviation``. deviation (m,): of its triangles from the surfaces; largest: the largest one; chord (f,) of each face, or (1,) of all, up to which it does not matter which triangle is the nearest; is_off_face: does (u, v) over a triangle lie beyond an edge of its face?
+        """
+
+    def look_over(self, left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Look at barycentric weights (w, 3) over the triangles of which left_out (m,) is 0.
+        """
+
+    def look_along_rims(self, half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], fractions: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Look along the edges of one triangle only, by half_edges (ne, 2) or -1, at fractions (j,) of their length.
+        """
+
+    def look_along_curves(self, curves: list, limits: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edge_rows: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], fractions: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], beside_middle: float, on_curve: float) -> int:
+        """
+        Look at the curves of edges between the ends of their segments, first in the middle and where that does not settle it at all fractions (j,). Returns how many segments that are.
+
+        curves to segments: as for ``segment_samples``, but edges may be out of range: of these nothing is known. edge_rows (k,): rows of half_edges (ne, 2), -1 for no side of a triangle. The middle of an arc settles it where it is as far from the triangle as ``beside_middle`` of its height over the segment.
+        """
+
+    def look_closely(self, left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], count: int) -> None:
+        """
+        Look at weights (w, 3) over the ``count`` triangles that are farthest, one way or the other, but those of which left_out (m,) is not 0.
+        """
+
+    def farthest(self) -> tuple[float, list[float], list[float], int, bool]:
+        """
+        The farthest point: its distance, place, (u, v), the triangle that it is over, and whether it was seen along a free rim.
+        """
+
+    def largest_over_each(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        Over each triangle (m,) the largest distance that was seen; 0 where the triangle itself is too far from the surface. Call it after ``farthest``.
+        """
 
 def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solid: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, solids: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
@@ -162,6 +204,11 @@ def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 
     Numbers (k,) of the edges whose two triangles run along them the same way.
     """
 
+def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> int:
+    """
+    The first of so many vertices that belongs to none of triangles (m, 3), or -1.
+    """
+
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
 
@@ -173,6 +220,31 @@ def face_shapes(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
 def face_distances(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (count,) each; by triangles of faces (m,), all others (m,).
+    """
+
+def face_angles(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], degrees: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Of ``count`` faces the largest angle across an edge within, 0 without any, how many are above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within faces (k,), degrees (k,).
+    """
+
+def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Numbers of the ``count`` largest of values (n,), rising, or of all where there are no more; of equal ones those that come first. NaN is as large as infinity.
+    """
+
+def quantile(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: float) -> float:
+    """
+    As ``np.quantile`` has it, of values (n,), n > 0: linear between two of them in their order, NaN where one is.
+    """
+
+def solid_boxes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    The lowest and the highest coordinates (count, 3) of each solid, infinite without a triangle; solids (m, 2): behind and before each of triangles (m, 3), below 0 for none.
+    """
+
+def corner_places(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, places: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and those of uv_triangles (m, 3).
     """
 
 def face_edge_means(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:

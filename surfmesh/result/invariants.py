@@ -11,6 +11,8 @@ def first_broken(
     mid_points: FloatArray | None, corners: Parametrisation | None, links: ModelLinks,
 ) -> str | None:  # fmt: skip
     """The first broken invariant of a mesh, or None; see ``SurfaceMesh.broken_invariant``."""
+    from surfmesh._core.quality import unused_vertex  # late, as in ``connect``
+
     outside = _outside("triangles", triangles, len(points))
     if outside is None and corners is not None:
         outside = _outside("uv_triangles", corners.uv_triangles, len(corners.uv_points))
@@ -33,10 +35,9 @@ def first_broken(
     twin = _first_duplicate(triangles, len(points))
     if twin is not None:
         return f"triangles {twin[0]} and {twin[1]} have the same corners"
-    used = np.zeros(len(points), bool)
-    used[triangles.reshape(-1)] = True
-    if not used.all():
-        return f"vertex {int(np.flatnonzero(~used)[0])} belongs to no triangle"
+    unused = unused_vertex(triangles, len(points))
+    if unused >= 0:
+        return f"vertex {unused} belongs to no triangle"
     if links.surfaces and len(links.face_ids):
         low, high, count = links.face_ids.min(), links.face_ids.max(), len(links.surfaces)
         if low < 0 or high >= count:

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core.quality import quantile
 from surfmesh.quality.figures.part import Part, over
 from surfmesh.quality.measures.folds import FoldedTriangle, most_folded
-from surfmesh.quality.measures.largest import quantile
 from surfmesh.quality.measures.measurements import LISTED, Measurements
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
 

@@ -22,7 +22,6 @@ pairs_of_ranges: ranges of places, one a row, written out as pairs.
 inward: closed surfaces whose triangles face their inside: their volume is negative.
 
 Accuracy:
-largest: the largest of many values, without sorting all of them.
 deviation: how far the mesh lies from the true surface, and which triangles face the wrong way.
 off_surface: vertices that lie off the surface of their triangles where no ``chord`` says how far
     they may.

@@ -93,12 +93,14 @@ def _all_half_edges(
 
 def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
     """(k,) about twice the sagittas of rims, by the angles at their ends."""
-    ends = mesh.edges[rim]
-    way = mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]
+    vertices, ends = np.unique(mesh.edges[rim], return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    places = mesh.points[vertices]
+    way = places[ends[:, 1]] - places[ends[:, 0]]
     length = np.linalg.norm(way, axis=1)
     way /= np.maximum(length, np.finfo(float).tiny)[:, None]
-    count = np.bincount(ends.ravel(), minlength=len(mesh.points))
-    total = np.zeros((len(mesh.points), 3))
+    count = np.bincount(ends.ravel(), minlength=len(vertices))
+    total = np.zeros((len(vertices), 3))
     np.add.at(total, ends[:, 0], way)
     np.add.at(total, ends[:, 1], -way)  # of both edges away from the vertex: 2 sin(angle / 2)
     angle = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))

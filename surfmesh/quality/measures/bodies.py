@@ -14,13 +14,15 @@ can cross, not overlap.
 
 from collections.abc import Set
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import solid_boxes
 from surfmesh._core.space import triangle_distances
-from surfmesh.geometry.boxes import box, diagonal
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -80,6 +82,9 @@ def bodies(
     if not len(pairs) and count < 2:
         return Bodies(own, 0, (), (), ())
     least = SAME * diagonal(mesh.points)
+    closed = _Solids(mesh, [row.solid for row in solids if row.closed])
+    if not len(pairs) and closed.are_apart(least):
+        return Bodies(own, 0, (), (), ())
     allowed = FACETS * distances_allowed(mesh, by_triangle)
     between = np.flatnonzero(_apart(mesh, pairs))
     of_triangle = _body_numbers(mesh, count)
@@ -99,7 +104,7 @@ def bodies(
             faces = np.sort(mesh.face_ids[met.pairs], axis=1)
             if set(map(tuple, np.unique(faces, axis=0).tolist())) <= edge_to_edge:
                 del found[tuple(key.tolist())]
-    for key, pair in _without_crossing(mesh, solids, allowed, least, found).items():
+    for key, pair in _without_crossing(mesh, closed, allowed, least, found).items():
         found[key] = pair
         for k in np.flatnonzero((distinct == key).all(axis=1)):
             deep[members[k]] = pair.kind == OVERLAP
@@ -218,30 +223,41 @@ class _Solid(NamedTuple):
 class _Solids:
     """Solids of a mesh and their boxes; the rest of one is found when it is first asked for."""
 
-    def __init__(self, mesh: SurfaceMesh, numbers: list[int], allowed: NDArray[np.float64]) -> None:
-        of, rows = solids_beside(mesh).ravel(), np.repeat(np.arange(len(mesh.triangles)), 2)
-        members, rows = _grouped(of[of >= 0], int(of.max()) + 1), rows[of >= 0]
-        self._mesh, self._numbers, self._allowed = mesh, numbers, allowed
-        self._rows = [rows[members[number]] for number in numbers]
-        boxes = [box(mesh.points[mesh.triangles[own].ravel()]) for own in self._rows]
-        self._low, self._high = (np.array(side) for side in zip(*boxes))
+    def __init__(self, mesh: SurfaceMesh, numbers: list[int]) -> None:
+        self.numbers, self._mesh = numbers, mesh
+        beside = solids_beside(mesh)
+        count = int(beside.max(initial=-1)) + 1
+        low, high = solid_boxes(mesh.points, mesh.triangles, beside, count)
+        self._low, self._high = low[numbers], high[numbers]
         self._found: dict[int, _Solid] = {}
 
-    def __getitem__(self, number: int) -> _Solid:
+    @cached_property
+    def _rows(self) -> list[NDArray[np.intp]]:
+        """The triangles of each."""
+        of = solids_beside(self._mesh).ravel()
+        rows = np.repeat(np.arange(len(self._mesh.triangles)), 2)[of >= 0]
+        members = _grouped(of[of >= 0], int(of.max()) + 1)
+        return [rows[members[number]] for number in self.numbers]
+
+    def found(self, number: int, allowed: NDArray[np.float64]) -> _Solid:
+        """What a solid is like. allowed: (m,) the depth that facets of a contact may have."""
         if number not in self._found:
-            k = self._numbers.index(number)
-            self._found[number] = _solid(
-                self._mesh, number, self._rows[k], (self._low[k], self._high[k]), self._allowed
-            )
+            k = self.numbers.index(number)
+            sides = self._low[k], self._high[k]
+            self._found[number] = _solid(self._mesh, number, self._rows[k], sides, allowed)
         return self._found[number]
+
+    def are_apart(self, margin: float) -> bool:
+        """Do no two boxes come within a margin of each other?"""
+        return not any(map(len, (self.near(number, margin) for number in self.numbers)))
 
     def near(self, number: int, margin: float) -> list[int]:
         """The others whose boxes come within a margin of that of ``number``."""
-        k = self._numbers.index(number)
+        k = self.numbers.index(number)
         near = (self._low[k] <= self._high + margin).all(axis=1)
         near &= (self._low <= self._high[k] + margin).all(axis=1)
         near[k] = False
-        return [self._numbers[i] for i in np.flatnonzero(near)]
+        return [self.numbers[i] for i in np.flatnonzero(near)]
 
 
 def _solid(
@@ -266,29 +282,29 @@ def _solid(
 
 
 def _without_crossing(
-    mesh: SurfaceMesh, solids: tuple[SolidRow, ...], allowed: NDArray[np.float64], least: float,
+    mesh: SurfaceMesh, closed: _Solids, allowed: NDArray[np.float64], least: float,
     found: dict[tuple[int, int], BodyPair],
 ) -> dict[tuple[int, int], BodyPair]:  # fmt: skip
     """Pairs of closed solids of which one lies within the other, or in one place, or that touch,
     where the triangles that meet have not shown it."""
-    closed = [row.solid for row in solids if row.closed]
-    if len(closed) < 2:
-        return {}
-    parts = _Solids(mesh, closed, allowed)
     more: dict[tuple[int, int], BodyPair] = {}
-    for number in closed:
-        for other in parts.near(number, least):
+    for number in closed.numbers:
+        for other in closed.near(number, least):
             key = (min(number, other), max(number, other))
             known = more.get(key, found.get(key))
             if known is not None and known.kind == OVERLAP:
                 continue
-            deep, touch = _probed(parts[number], parts[other], least)
+            deep, touch = _probed(
+                closed.found(number, allowed), closed.found(other, allowed), least
+            )
             place = touch if deep is None else deep
             if place is None or (known is not None and deep is None):
                 continue
             met = 0 if known is None else known.triangles
             kind = TOUCH if deep is None else OVERLAP
-            more[key] = _pair(mesh, np.array(key), max(closed) + 1, kind, met, None, None, place)
+            more[key] = _pair(
+                mesh, np.array(key), max(closed.numbers) + 1, kind, met, None, None, place
+            )
     return more
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import quality as core
+from surfmesh.accuracy.dihedral import SLACK
 from surfmesh.quality.measures.face_rows import (
     FaceColumns,
     FaceDeviations,
@@ -13,10 +14,7 @@ from surfmesh.quality.measures.face_rows import (
     FaceRows,
 )
 from surfmesh.quality.measures.measurements import Measurements
-from surfmesh.quality.measures.tolerances import (
-    exceeds_angle,
-    exceeds_chord,
-)
+from surfmesh.quality.measures.tolerances import exceeds_chord
 
 
 def by_face(measured: Measurements) -> FaceRows:
@@ -32,7 +30,7 @@ def by_face(measured: Measurements) -> FaceRows:
         numbers, faces = np.unique(faces, return_inverse=True)
     elif len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
         return FaceRows()
-    count, exact = len(numbers), measured.facts.faces
+    count = len(numbers)
     rows = faces.astype(np.int32, copy=False)
     triangles, area, alpha_sum, alpha_min = core.face_shapes(rows, shape.area, shape.alpha, count)
     size, target = _sizes(measured, rows, count)
@@ -43,7 +41,7 @@ def by_face(measured: Measurements) -> FaceRows:
         FaceColumns(
             mesh=mesh,
             numbers=numbers,
-            known=[exact[face] if 0 <= face < len(exact) else None for face in numbers.tolist()],
+            facts=measured.facts.faces,
             triangles=triangles,
             area=area,
             alpha_sum=alpha_sum,
@@ -52,8 +50,7 @@ def by_face(measured: Measurements) -> FaceRows:
             target=target,
             fits=_deviations(measured, rows, count),
             dihedrals=_dihedrals(measured, count),
-            chords=tolerances.of_each(tolerances.chord, numbers),
-            angles=tolerances.of_each(tolerances.angle, numbers),
+            tolerances=tolerances,
             limits=limits,
         )
     )
@@ -83,10 +80,8 @@ def _dihedrals(measured: Measurements, count: int) -> FaceDihedrals | None:
     found = measured.dihedral_angles
     if found is None:
         return None
-    largest = np.zeros(count)
-    np.maximum.at(largest, found.faces, found.angles)
-    above = np.bincount(found.faces[exceeds_angle(measured.tolerances, found)], minlength=count)
-    return FaceDihedrals(largest, above, np.bincount(found.faces, minlength=count))
+    most = measured.tolerances.angle[:count] * (1.0 + SLACK)
+    return FaceDihedrals(*core.face_angles(found.faces, found.angles, most, count))
 
 
 def _sizes(

@@ -38,7 +38,8 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
-    target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
+    a, b, c = (mesh.sizes[corner] for corner in mesh.triangles[chosen].T)
+    target = (a + b + c) / 3.0
     decided = np.zeros(len(chosen), bool)
     faces = mesh.face_ids[chosen]
     chord = tolerances.at(tolerances.chord, faces)

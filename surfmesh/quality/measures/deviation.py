@@ -11,15 +11,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import dense_deviation, edges_of_faces, mesh_deviation
+from surfmesh._core.quality import (
+    dense_deviation,
+    edges_of_faces,
+    largest_values,
+    mesh_deviation,
+)
 from surfmesh.accuracy.deviation import STEPS
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
-from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
+SECOND_LOOK, ONE_IN = 400, 250  # so many triangles are sampled densely, or one in so many if that
+# is more
 
 
 class Deviation(NamedTuple):
@@ -60,6 +65,11 @@ def deviation(
     return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
 
+def looked_at_closely(triangles: int) -> int:
+    """How many of so many triangles are sampled densely: those that are farthest."""
+    return min(triangles, max(SECOND_LOOK, triangles // ONE_IN))
+
+
 def _measured_edges(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """Half-edges (k, 2) whose middles are looked at, and those that share the finding or -1.
 
@@ -79,9 +89,8 @@ def _second_look(
     known: KnownSurfaces, by_triangle: NDArray[np.float64]
 ) -> tuple[int, Point, tuple[float, float]]:
     """Sample the worst triangles densely, in place; return the worst place of all."""
-    mesh, count = known.mesh, len(by_triangle)
-    chosen = min(count, max(SECOND_LOOK, count // 250))
-    worst = largest(by_triangle, chosen).astype(np.int32)
+    mesh = known.mesh
+    worst = largest_values(by_triangle, looked_at_closely(len(by_triangle)))
     in_plane = known.in_plane[worst] != 0
     if in_plane.all():
         in_plane[by_triangle[worst].argmax()] = False

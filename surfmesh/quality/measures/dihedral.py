@@ -49,12 +49,13 @@ def angles_within_faces(
     if limits is None:
         limits = np.array([(mesh.sizing and mesh.sizing.angle) or np.inf])
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
-    limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
     large = np.flatnonzero(angles > limits.min() * (1 + SLACK))  # few; by face only among these
-    large = large[angles[large] > limits[faces[large]] * (1 + SLACK)]
+    if len(limits) > 1:
+        large = large[angles[large] > limits[faces[large]] * (1 + SLACK)]
     if len(large):
         pairs = table.half_edges[edges[large]]
-        creased = quality.face_creases(*known.arrays, pairs, np.ascontiguousarray(limits))
+        of_each = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
+        creased = quality.face_creases(*known.arrays, pairs, np.ascontiguousarray(of_each))
         angles[large[creased.view(bool)]] = 0.0
     return DihedralAngles(edges, faces, angles)
 

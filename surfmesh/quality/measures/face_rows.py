@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
 from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.result.model_facts import FaceFacts
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -67,7 +68,7 @@ class FaceColumns:
 
     mesh: SurfaceMesh
     numbers: NDArray[np.integer[Any]]
-    known: list[FaceFacts | None]
+    facts: Sequence[FaceFacts]  # of the model's, as far as it is known
     triangles: NDArray[np.int64]
     area: NDArray[np.float64]
     alpha_sum: NDArray[np.float64]
@@ -76,15 +77,25 @@ class FaceColumns:
     target: NDArray[np.float64]
     fits: FaceDeviations | None
     dihedrals: FaceDihedrals | None
-    chords: list[float | None]
-    angles: list[float | None]
+    tolerances: Tolerances
     limits: dict[int, list[str]]
+
+    @property
+    def area_exact(self) -> NDArray[np.float64]:
+        """(f,) NaN where it is not known."""
+        areas = np.full(len(self.numbers), np.nan)
+        of_model = np.array([one.area or np.nan for one in self.facts], float)
+        there = np.flatnonzero((self.numbers >= 0) & (self.numbers < len(of_model)))
+        areas[there] = of_model[self.numbers[there]]
+        return areas
 
     def row(self, k: int) -> FaceRow:
         """What stands in row k."""
-        mesh, face, known = self.mesh, int(self.numbers[k]), self.known[k]
+        mesh, face, asked = self.mesh, int(self.numbers[k]), self.tolerances
+        known = self.facts[face] if 0 <= face < len(self.facts) else None
         here, area = int(self.triangles[k]), float(self.area[k])
-        exact, chord, angle = None if known is None else known.area, self.chords[k], self.angles[k]
+        exact = None if known is None else known.area
+        chord, angle = asked.one(asked.chord, face), asked.one(asked.angle, face)
         kind = surface_kind(mesh.surfaces[face]) if mesh.surfaces else ""
         fit = self.fits if here else None
         rms = (float(fit.square[k]) / area) ** 0.5 if fit and area > 0 else None
@@ -176,5 +187,4 @@ class FaceRows(Sequence[FaceRow]):
         """(f,) NaN where it is not known, or the face has no triangle."""
         if self._columns is None:
             return np.empty(0)
-        areas = [np.nan if one is None else one.area or np.nan for one in self._columns.known]
-        return np.where(self._columns.triangles > 0, np.array(areas, float), np.nan)
+        return np.where(self._columns.triangles > 0, self._columns.area_exact, np.nan)

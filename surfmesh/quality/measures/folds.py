@@ -64,7 +64,7 @@ def folds(known: KnownSurfaces, cosine: NDArray[np.float32]) -> Folds:
     nearest = 0.0
     radius = sharp_radius(None if mesh.sizing is None else mesh.sizing.chord, diagonal(mesh.points))
     bad = np.flatnonzero(folded)
-    for face in np.unique(mesh.face_ids[bad]):
+    for face in np.unique(mesh.face_ids[bad]) if len(bad) else ():
         some = bad[mesh.face_ids[bad] == face]
         surface, uv = mesh.surfaces[face], known.uv(some)
         by_surface[some] = bends_sharply(surface, uv, radius)
@@ -96,6 +96,8 @@ def _distances(
 def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTriangle, ...]:
     """The ``count`` triangles that are turned most: first those that the surface does not."""
     bad = np.flatnonzero(found.by_mesh | found.by_surface)
+    if not len(bad):
+        return ()
     bad = bad[np.lexsort((found.cosine[bad], found.by_surface[bad]))][:count]
     angle = np.degrees(np.arccos(np.clip(found.cosine[bad].astype(float), -1.0, 1.0)))
     places = mesh.points[mesh.triangles[bad]].mean(axis=1)

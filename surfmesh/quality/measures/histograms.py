@@ -1,6 +1,7 @@
 """How the quality is spread: counts in fixed bins, so that reports can be laid side by side."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,5 +43,10 @@ def histograms(
 def _counted(name: str, values: NDArray[np.float64], low: float, high: float) -> Histogram:
     bins = BINS[name]
     counts = binned_counts(values, low, high, bins)
-    edges = np.round(np.linspace(low, high, bins + 1), 12)
-    return Histogram(tuple(edges.tolist()), tuple(counts.tolist()))
+    return Histogram(_edges(low, high, bins), tuple(counts.tolist()))
+
+
+@lru_cache
+def _edges(low: float, high: float, bins: int) -> tuple[float, ...]:
+    """Of bins that are the same in most reports."""
+    return tuple(np.round(np.linspace(low, high, bins + 1), 12).tolist())

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import quality
-from surfmesh.quality.measures.largest import quantile
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
@@ -93,7 +92,7 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
     if not used.any():
         return Growth(float("nan"), float("nan"))
     ratio = longest[used] / shortest[used]
-    return Growth(float(ratio.max()), quantile(ratio, 0.99))
+    return Growth(float(ratio.max()), quality.quantile(ratio, 0.99))
 
 
 class SizeGrowth(NamedTuple):

@@ -161,7 +161,10 @@ def edge_sagittas(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:
     size = np.maximum(length[1:] * length[:-1], np.finfo(float).tiny)
     cosine = np.einsum("ij,ij->i", way[1:], way[:-1]) / size
     angle = np.where(on, np.arccos(np.clip(cosine, -1.0, 1.0)), 0.0)
-    return length * np.maximum(np.r_[angle, 0.0], np.r_[0.0, angle]) / 4.0
+    turn = np.zeros(len(segments))  # the larger of those at both ends
+    turn[:-1] = angle
+    np.maximum(turn[1:], angle, out=turn[1:])
+    return length * turn / 4.0
 
 
 def _by_angles(mesh: SurfaceMesh) -> NDArray[np.float64]:

@@ -39,6 +39,8 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     if mesh.order == 2 and not mesh.broken_invariant():
         return _meeting_curved(mesh)
     pairs = _meeting(mesh.points, mesh.triangles, mesh.connectivity)
+    if not len(pairs):
+        return pairs
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)
     pairs = pairs[(a != b).any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
@@ -63,6 +65,8 @@ def _meeting_curved(mesh: SurfaceMesh) -> NDArray[np.int32]:
 
 def located(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[MeetingPair, ...]:
     """Where pairs (k, 2) meet: in the middle of what the boxes of both have in common."""
+    if not len(pairs):
+        return ()
     corners = mesh.points[mesh.triangles[pairs]]  # (k, 2, 3, 3)
     low, high = corners.min(axis=2).max(axis=1), corners.max(axis=2).min(axis=1)
     return tuple(

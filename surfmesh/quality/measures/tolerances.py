@@ -97,7 +97,7 @@ class Tolerances(NamedTuple):
         if given is None or 1 < len(given) < count or not len(given):
             given = np.full((1, 3), np.nan)
         chord, angle = (np.where(np.isnan(given[:, k]), np.inf, given[:, k]) for k in (0, 1))
-        least = np.nan_to_num(given[:, 2], nan=0.0)
+        least = np.where(np.isnan(given[:, 2]), 0.0, given[:, 2])
         uniform = bool((chord == chord[0]).all() and (angle == angle[0]).all())
         return cls(chord, angle, least, uniform)
 
@@ -109,12 +109,8 @@ class Tolerances(NamedTuple):
 
     def one(self, values: NDArray[np.float64], face: int) -> float | None:
         """Of one face; None where nothing is asked for."""
-        return self.of_each(values, np.array([face]))[0]
-
-    def of_each(self, values: NDArray[np.float64], faces: NDArray) -> list[float | None]:
-        """Of faces (f,); None where nothing is asked for."""
-        asked = self.at(values, faces).tolist()
-        return [value if 0.0 < value < np.inf else None for value in asked]
+        asked = float(values[min(max(face, 0), len(values) - 1)])
+        return asked if 0.0 < asked < np.inf else None
 
     @property
     def base_chord(self) -> float | None:

@@ -48,23 +48,23 @@ class Topology(NamedTuple):
 
 def topology(mesh: SurfaceMesh) -> Topology:
     """Topology of ``mesh``; vertex numbers must be in range (``mesh.broken_invariant()``)."""
-    n, corners = len(mesh.points), mesh.triangles.reshape(-1)
-    table = mesh.connectivity
-    used = np.zeros(n, bool)
-    used[corners] = True
+    n, table = len(mesh.points), mesh.connectivity
     boundary = table.boundary
     extra = _crowded_half_edges(mesh)
     fans = _fans(mesh, extra)
+    used = fans > 0
     clashing = _clashing(mesh)
-    even = len(corners) > 0 and not len(boundary) and not len(clashing)
+    even = len(mesh.triangles) > 0 and not len(boundary) and not len(clashing)
     even = even and _is_balanced(mesh, extra)
     return Topology(
-        vertices=int(used.sum()),
+        vertices=int(np.count_nonzero(used)),
         edges=len(table.edges),
         triangles=len(mesh.triangles),
         components=_count(vertex_components(mesh), used),
         boundary_edges=len(boundary),
-        boundary_loops=_count(components(n, boundary), np.unique(boundary)),
+        boundary_loops=(
+            _count(components(n, boundary), np.unique(boundary)) if len(boundary) else 0
+        ),
         crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
         pinched_vertices=np.flatnonzero(fans > 1).astype(np.int32),
         clashing_edges=clashing,
@@ -114,6 +114,8 @@ def half_edges_along(
 def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Half-edges (k,) of edges of three triangles or more, in order of edges, and the edges."""
     crowded = np.flatnonzero(mesh.connectivity.uses > 2)
+    if not len(crowded):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
     half_edges, row = half_edges_along(mesh, mesh.edges[crowded])
     order = np.argsort(row, kind="stable")
     return half_edges[order], crowded[row[order]]
@@ -122,6 +124,8 @@ def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[n
 def _is_balanced(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> bool:
     """Are crowded edges run along as often one way as the other?"""
     half_edges, edges = crowded
+    if not len(edges):
+        return True
     corners = mesh.triangles.reshape(-1)
     ahead = corners[half_edges] == mesh.edges[edges, 0]
     return not np.bincount(edges, np.where(ahead, 1.0, -1.0)).any()

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import TriangleStars, hidden_bounds
+from surfmesh._core.quality import TriangleStars, corner_places, hidden_bounds
 from surfmesh._core.space import PointTree, triangle_planes
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import BoundedSurface
@@ -207,15 +207,10 @@ def _longest(corners: NDArray) -> NDArray[np.float64]:
 
 def _beside_poles(known: KnownSurfaces, triangles: Rows) -> NDArray[np.bool_]:
     """(k,) triangles with a corner at a side that is one point: there others were dropped."""
-    mesh = known.mesh
-    vertex, uv = mesh.triangles.ravel(), known.corners.uv_triangles.ravel()
-    vertex_of = np.full(len(known.corners.uv_points), -1, np.int32)
-    vertex_of[uv] = vertex
-    if (vertex_of[uv] == vertex).all():  # as a rule parameters belong to one vertex
-        images = np.bincount(vertex_of[vertex_of >= 0], minlength=len(mesh.points))
-    else:
-        pairs = np.unique(vertex.astype(np.int64) * len(vertex_of) + uv)
-        images = np.bincount(pairs // len(vertex_of), minlength=len(mesh.points))
+    mesh, corners = known.mesh, known.corners
+    images = corner_places(
+        mesh.triangles, corners.uv_triangles, len(mesh.points), len(corners.uv_points)
+    )
     if images.max(initial=0) <= 4:  # a corner of two seams has four
         return np.zeros(len(triangles), bool)
     many = images[mesh.triangles[triangles]] > 4

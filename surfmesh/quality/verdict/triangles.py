@@ -94,7 +94,8 @@ def bad_triangles(measured: Measurements) -> Iterator[Problem]:
         (folds.inverted, Kind.INVERTED, "inverted against the surface"),
         (folded, Kind.FOLDED, "folded: turned more than 60° from the surface"),
     ):
-        yield from _triangles(mesh, bad, kind, what, _causes(folds, bad))
+        if bad.any():
+            yield from _triangles(mesh, bad, kind, what, _causes(folds, bad))
 
 
 def folded_surfaces(measured: Measurements) -> Iterator[Remark]:

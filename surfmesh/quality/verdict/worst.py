@@ -42,11 +42,12 @@ def worst_triangles(
     worst = np.flatnonzero(shape.alpha <= last)  # ties: those of the smallest numbers
     worst = worst[np.argsort(shape.alpha[worst], kind="stable")][:count]
     corners, faces = mesh.triangles[worst], mesh.face_ids[worst].tolist()
+    names = {face: mesh.face_name(face) for face in set(faces)}
     columns = (
         worst.tolist(),
         *(angle[worst].tolist() for angle in (shape.alpha, shape.min_angle, shape.max_angle)),
         faces,
-        map(mesh.face_name, faces),
+        map(names.__getitem__, faces),
         map(tuple, mesh.points[corners].mean(axis=1).tolist()),
         map(tuple, corners.tolist()),
     )

@@ -40,10 +40,13 @@ def test_triangles_must_be_those_of_the_mesh(known):
         dense_deviation(*known.arrays, beyond, DENSE, 0.05, STEPS)
 
 
-def test_on_a_cylinder_it_finds_what_a_search_finds():
+@pytest.mark.parametrize("size", [0.7, 3.0])  # the larger one gives a rim of four sides
+def test_on_a_cylinder_it_finds_what_a_search_finds(size):
     part = pytest.importorskip("cadquery").Workplane().circle(2.0).extrude(3.0)
-    known = KnownSurfaces.of(sm.mesh(part, sm.Sizing(size=0.7)))
+    known = KnownSurfaces.of(sm.mesh(part, sm.Sizing(size=size)))
     mesh = known.mesh
+    turn = max(np.ptp(known.uv(np.array([t]))[0, :, 0]) for t in range(len(mesh.triangles)))
+    assert (turn > 1.5) == (size > 1.0)
     chosen = np.arange(len(mesh.triangles), dtype=np.int32)
     largest, triangle, point, uv = dense_deviation(*known.arrays, chosen, DENSE, 0.05, STEPS)
     for face, surface in enumerate(mesh.surfaces):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from naive.surface_to_mesh import Curves
 
 import surfmesh as sm
 from surfmesh._core.quality import TriangleStars
@@ -9,7 +10,7 @@ from surfmesh._core.space import triangle_distances
 from surfmesh.quality.measures.deviation import deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.shape import shapes
-from surfmesh.quality.measures.surface_to_mesh import ALONG_RIM, _Curves, surface_deviation
+from surfmesh.quality.measures.surface_to_mesh import ALONG_RIM, surface_deviation
 from surfmesh.quality.measures.tolerances import Tolerances
 
 cq = pytest.importorskip("cadquery")
@@ -74,7 +75,7 @@ def test_distances_within_planes_are_those_of_a_search(mesh):
 
 
 def test_straight_edges_are_left_out_and_round_ones_looked_at(mesh):
-    curves = _Curves.of(mesh)
+    curves = Curves.of(mesh)
     every = np.arange(len(curves.segments))
     segments, points, off_arc = curves.between(every, ALONG_RIM, mesh.points)
     ends = mesh.points[curves.segments]
@@ -87,7 +88,7 @@ def test_straight_edges_are_left_out_and_round_ones_looked_at(mesh):
 
 
 def test_nodes_off_a_straight_edge_are_looked_at(mesh):
-    curves = _Curves.of(mesh)
+    curves = Curves.of(mesh)
     segments, _, _ = curves.between(np.arange(len(curves.segments)), ALONG_RIM, mesh.points)
     straight = np.setdiff1d(np.arange(len(curves.segments)), segments)[0]
     points = mesh.points.copy()

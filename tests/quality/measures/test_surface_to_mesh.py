@@ -8,6 +8,7 @@ import pytest
 from handmade_meshes import Saddle, changed, grid, icosphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from naive import surface_to_mesh as naive
 
 import surfmesh as sm
 from surfmesh._core.space import triangle_distances
@@ -15,6 +16,15 @@ from surfmesh.quality.measures import surface_to_mesh
 from surfmesh.quality.measures.measurements import Measurements
 
 CELLS = 8
+
+
+def segments_looked_at_everywhere(monkeypatch):
+    """A list that holds, after each search, how many segments their middles have not settled."""
+    looked_at, look = [], surface_to_mesh.look_along_edges
+    monkeypatch.setattr(
+        surface_to_mesh, "look_along_edges", lambda *given: looked_at.append(look(*given))
+    )
+    return looked_at
 
 
 def sector(scale=1.0, turn=2.0):
@@ -144,17 +154,8 @@ def test_middles_of_arcs_say_as_much_as_all_points_of_them(moved, squeezed, monk
     points[nodes] += moved * draw.normal(size=(9, 3))
     mesh = mesh.replaced(points=points)
     settled = Measurements(mesh).surface_deviation
-    looked_at = []
-    between = surface_to_mesh._look_between
     monkeypatch.setattr(surface_to_mesh, "BESIDE_MIDDLE", np.inf)  # nothing is settled
-    monkeypatch.setattr(
-        surface_to_mesh,
-        "_look_between",
-        lambda search, curves, segments, *rest: (
-            looked_at.append(len(segments)),
-            between(search, curves, segments, *rest),
-        ),
-    )
+    looked_at = segments_looked_at_everywhere(monkeypatch)
     everywhere = Measurements(mesh).surface_deviation
     assert looked_at[0] > 30
     np.testing.assert_allclose(settled.by_triangle, everywhere.by_triangle, rtol=1e-9, atol=1e-12)
@@ -163,9 +164,30 @@ def test_middles_of_arcs_say_as_much_as_all_points_of_them(moved, squeezed, monk
 
 def test_most_arcs_are_settled_by_their_middles(monkeypatch):
     part = cq.Workplane().circle(4).extrude(1).faces(">Z").workplane().hole(1)
-    mesh, looked_at = sm.mesh(part, sm.Sizing(size=0.5), jobs=1), []
-    monkeypatch.setattr(
-        surface_to_mesh, "_look_between", lambda *given: looked_at.append(len(given[2]))
-    )
+    mesh = sm.mesh(part, sm.Sizing(size=0.5), jobs=1)
+    looked_at = segments_looked_at_everywhere(monkeypatch)
     assert Measurements(mesh).surface_deviation.largest > 0.0
     assert 4 * looked_at[0] <= np.count_nonzero(mesh.edge_segment_rows >= 0)
+
+
+@pytest.mark.parametrize("harm", ["none", "shaken", "thrown", "tighter"])
+@pytest.mark.parametrize("subject", ["torus", "monkey_saddle", "part", "sheet"])
+def test_the_search_is_that_of_plain_python(subject, harm):
+    """To the last bit, also where points lie beyond the chord and beside their faces."""
+    plate = cq.Workplane().box(4, 3, 1).faces(">Z").workplane().hole(1).edges("|Z").fillet(0.4)
+    disc = cq.Face.makeFromWires(cq.Wire.makeCircle(3, cq.Vector(), cq.Vector(0, 0, 1)))
+    given = {"part": plate, "sheet": disc}.get(subject) or sm.load(subject)
+    mesh = sm.mesh(given, sm.Sizing(chord=0.02), jobs=1)
+    draw = np.random.default_rng(3)
+    if harm == "tighter":
+        mesh = mesh.replaced(sizing=mesh.sizing.replaced(chord=0.005), promises=None)
+    elif harm != "none":
+        nodes = draw.choice(len(mesh.points), 3, replace=False)
+        points = mesh.points.copy()
+        points[nodes] += {"shaken": 0.03, "thrown": 2.0}[harm] * draw.normal(size=(3, 3))
+        mesh = mesh.replaced(points=points)
+    measured = Measurements(mesh)
+    found = measured.surface_deviation
+    expected = naive.surface_deviation(measured.known, measured.deviation, measured.tolerances)
+    np.testing.assert_array_equal(found.by_triangle, expected.by_triangle)
+    assert found[1:] == expected[1:]

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from surfmesh.quality.measures.largest import largest, quantile
+from surfmesh._core.quality import largest_values as largest
+from surfmesh._core.quality import quantile
 
 
 @pytest.mark.parametrize("size, count", [(0, 0), (5, 5), (40, 7), (9_000, 400), (9_000, 8_000)])
