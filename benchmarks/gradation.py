@@ -19,7 +19,7 @@ import numpy as np
 
 import surfmesh as sm
 from surfmesh.errors import SurfmeshError
-from surfmesh.quality.measures.lengths import growth_of_edges
+from surfmesh.quality.measures.lengths import edge_sizes, growth_of_edges
 
 ALLOWED = 1.1
 """Times what growth allows: edges beyond it are counted."""
@@ -43,7 +43,8 @@ def meshes(names: list[str]) -> Iterator[tuple[str, str, sm.SurfaceMesh, float]]
 def beyond_growth(mesh: sm.SurfaceMesh, growth: float) -> tuple[float, float]:
     """Fraction of the edges beyond ``ALLOWED``, and the largest growth; 1 is what is allowed."""
     lengths = np.linalg.norm(np.diff(mesh.points[mesh.edges], axis=1)[:, 0], axis=1)
-    over = growth_of_edges(mesh, lengths, 2.0 * (growth - 1.0) / (growth + 1.0))
+    slope = 2.0 * (growth - 1.0) / (growth + 1.0)
+    over = growth_of_edges(mesh, lengths, edge_sizes(mesh), slope)
     if over is None:
         return 0.0, 0.0
     return float(np.mean(over > ALLOWED)), float(over.max())
