@@ -23,7 +23,8 @@ inline constexpr Point2 EIGHT_WAYS[] = {
     {-1.0, 0.0}, {-DIAGONAL, -DIAGONAL}, {0.0, -1.0}, {DIAGONAL, -DIAGONAL}};
 
 /// The best way from where the energy is ``energy``; good enough is what is not above ``enough``.
-/// bar(energy): what a step has to come below.
+/// bar(energy): what a step has to come below. energy_at(way, least): what is not below ``least``
+/// need not be known any closer.
 template <class EnergyAt, class Bar>
 Point2 find_best_way(const WayLimits& limits, double energy, double enough,
                      const EnergyAt& energy_at, const Bar& bar) {
@@ -34,7 +35,7 @@ Point2 find_best_way(const WayLimits& limits, double energy, double enough,
         for (const Point2 direction : EIGHT_WAYS) {
             const Point2 trial = way + radius * direction;
             if (norm(trial) > limits.longest) continue;
-            const double found = energy_at(trial);
+            const double found = energy_at(trial, best);
             if (!(found < best)) continue;
             best = found;
             best_way = trial;

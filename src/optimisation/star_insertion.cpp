@@ -104,7 +104,7 @@ class NewStar {
 
     void move() {
         const Position from(t_, s_, v_);
-        const auto energy_at = [&](Point2 trial) {
+        const auto energy_at = [&](Point2 trial, double /*least*/) {
             from.place(t_, s_, trial);
             return -smallest_shape();
         };

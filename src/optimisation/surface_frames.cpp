@@ -47,12 +47,11 @@ void stretch(Triangulation& t, SurfaceFrames& s, Vertex v, SizeTensor j) {
     b.y = to.yx * x + to.yy * y;
 }
 
-/// The step d in the sum of the metrics of a, b and c.
-Point3 stretched(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, Point3 d) {
+/// The sum of the metrics of a, b and c.
+MetricRoot3 sum_of_metrics(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
     const MetricRoot3 &p = s.metric_root[a], &q = s.metric_root[b], &r = s.metric_root[c];
-    const MetricRoot3 sum = {p.xx + q.xx + r.xx, p.xy + q.xy + r.xy, p.xz + q.xz + r.xz,
-                             p.yy + q.yy + r.yy, p.yz + q.yz + r.yz, p.zz + q.zz + r.zz};
-    return apply(sum, d);
+    return {p.xx + q.xx + r.xx, p.xy + q.xy + r.xy, p.xz + q.xz + r.xz,
+            p.yy + q.yy + r.yy, p.yz + q.yz + r.yz, p.zz + q.zz + r.zz};
 }
 
 /// What alpha = sqrt(12 area_squared) / total of a triangle is made from.
@@ -68,8 +67,9 @@ ShapeParts shape_parts(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
     const Point3 m = s.normal[a] + s.normal[b] + s.normal[c];
     const double outward = dot(n, m);
     if (s.is_anisotropic) {
-        u = stretched(s, a, b, c, u);
-        v = stretched(s, a, b, c, v);
+        const MetricRoot3 sum = sum_of_metrics(s, a, b, c);
+        u = apply(sum, u);
+        v = apply(sum, v);
         n = cross(u, v);
         const double length = dot(m, m);
         if (length > 0.0) n = dot(n, m) / length * m;

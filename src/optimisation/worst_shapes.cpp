@@ -26,7 +26,7 @@ double smallest_shape(const Triangulation& t, const SurfaceFrames& s, Vertex v, 
 /// its way, unit lengths.
 double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, double least) {
     const Position from(t, s, v);
-    const auto energy_at = [&](Point2 trial) {
+    const auto energy_at = [&](Point2 trial, double /*least*/) {
         from.place(t, s, trial);
         return -smallest_shape(t, s, v, start);
     };
