@@ -1,4 +1,4 @@
-"""Benchmarks, which no test runs, call functions of surfmesh that exist with arguments they take."""
+"""Benchmarks, which no test runs, call functions of surfmesh with arguments that these take."""
 
 import ast
 import importlib
@@ -30,7 +30,7 @@ def of_surfmesh(tree: ast.AST) -> dict[str, Any]:
 
 
 def calls(tree: ast.AST, known: dict[str, Any]) -> Iterator[tuple[ast.Call, Any]]:
-    """Calls of what is known, by its name or as an attribute of a module, with all arguments seen."""
+    """Calls of what is known, by name or as an attribute of a module, with all arguments seen."""
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
