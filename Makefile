@@ -88,7 +88,8 @@ races: $(VENV)/.installed-dev ## tests of what threads of one call do, under the
 	LD_PRELOAD="$(shell $(or $(CXX),c++) -print-file-name=libtsan.so)" TSAN_OPTIONS=halt_on_error=1 \
 	    PYTHONPATH=build/races/package $(BIN)/python -P -m pytest -q -x -p no:cacheprovider -n 0 \
 	    tests/core/patch/test_parts_of_a_patch.py tests/core/packing/test_packing_in_halves.py \
-	    tests/core/faces/test_face_joining.py
+	    tests/core/faces/test_face_joining.py tests/meshing/faces/test_face_queue.py \
+	    tests/meshing/faces/test_graded_faces.py
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
 	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random

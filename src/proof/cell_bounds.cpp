@@ -97,7 +97,8 @@ double largest(const std::array<double, COUNT>& numbers) {
 }
 
 template <std::size_t COUNT>
-void add(std::array<double, COUNT>& sum, double factor, const std::array<double, COUNT>& weights) {
+void add_scaled(std::array<double, COUNT>& sum, double factor,
+                const std::array<double, COUNT>& weights) {
     for (std::size_t p = 0; p < COUNT; ++p) sum[p] += factor * weights[p];
 }
 
@@ -125,19 +126,19 @@ auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts&
         typename Places::AtSide away{}, left{};
         for (std::size_t end = 0; end < 2; ++end) {
             const std::size_t c = (k + end) % 3;
-            add(away, corner[c]->away[d], WEIGHTS.side_value[end]);
-            add(away, bend_at(k, c), WEIGHTS.side_bend[end]);
+            add_scaled(away, corner[c]->away[d], WEIGHTS.side_value[end]);
+            add_scaled(away, bend_at(k, c), WEIGHTS.side_bend[end]);
         }
-        add(left, fourth_of(k, k), WEIGHTS.side_fourth);
+        add_scaled(left, fourth_of(k, k), WEIGHTS.side_fourth);
         take(away, left);
     }
     typename Places::Within away{}, left{};
     for (std::size_t c = 0; c < 3; ++c) {
-        add(away, corner[c]->away[d], WEIGHTS.value[c]);
-        for (std::size_t k = 0; k < 3; ++k) add(away, bend_at(k, c), WEIGHTS.bend[k][c]);
+        add_scaled(away, corner[c]->away[d], WEIGHTS.value[c]);
+        for (std::size_t k = 0; k < 3; ++k) add_scaled(away, bend_at(k, c), WEIGHTS.bend[k][c]);
     }
     for (std::size_t p = 0; p < SIDE_PAIRS; ++p)
-        add(left, fourth_of(PAIR_FIRST[p], PAIR_OTHER[p]), WEIGHTS.fourth[p]);
+        add_scaled(left, fourth_of(PAIR_FIRST[p], PAIR_OTHER[p]), WEIGHTS.fourth[p]);
     take(away, left);
     return found;
 }

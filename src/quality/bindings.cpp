@@ -29,8 +29,6 @@ void bind_surface_search(nb::module_& m);
 
 template <>
 struct Row<float> : RowOf<float, 1> {};
-template <>
-struct Row<Weights> : RowOf<double, 3> {};
 
 namespace {
 

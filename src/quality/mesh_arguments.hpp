@@ -10,9 +10,13 @@
 #include "binding/arrays.hpp"
 #include "quality/measured_mesh.hpp"
 #include "space/edge_table.hpp"
+#include "space/measure.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
+
+template <>
+struct Row<Weights> : RowOf<double, 3> {};
 
 using Triangles = Matrix<std::int32_t, 3>;
 using Numbers = Vector<std::int32_t>;

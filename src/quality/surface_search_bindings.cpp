@@ -12,9 +12,6 @@ namespace surfmesh::binding {
 
 void bind_surface_search(nb::module_& m);
 
-template <>
-struct Row<Weights> : RowOf<double, 3> {};
-
 namespace {
 
 using Pairs = Matrix<std::int32_t, 2>;

@@ -47,6 +47,15 @@ def test_names_of_a_file_are_unique_in_its_room(room):
 
 
 @pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+def test_a_template_is_specialised_in_one_file(room):
+    places = defaultdict(set)
+    for path in sorted(room.glob("*.?pp")):
+        for found in re.finditer(r"^template <>\nstruct (\w+<[\w:]+>)", path.read_text(), re.M):
+            places[found.group(1)].add(path.name)
+    assert not {name: found for name, found in places.items() if len(found) > 1}
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
 def test_types_of_a_file_have_no_name_that_its_room_has_for_others(room):
     """What follows in the same file of several would not know which is meant."""
     named = re.compile(r"^(?:using|struct|class|enum class) (\w+)\b(?: = |.*\{)")
