@@ -271,7 +271,7 @@ class _Rounds:
                 require_model_within(model, jobs, self.nodes, sizings, sizing)
 
     def _mesh_faces(self, outdated: list[FaceState], limits: Mapping[int, SizeLimits]) -> None:
-        with self.watch.stage("packing"):
+        with self.watch.stage("faces"):
             jobs = later_jobs(self.model, outdated, self.nodes, limits, self.how.optimise)
             meshes = self.how.workers.meshed(jobs)
             for count, (place, mesh) in enumerate(meshes, 1):
@@ -293,7 +293,7 @@ class _Rounds:
 
     def _force_faces(self) -> None:
         """Faces that have failed in every round are meshed as well as they can be."""
-        with self.watch.stage("packing"):
+        with self.watch.stage("faces"):
             for state in self.faces:
                 if state.may_be_forced:
                     state.mesh = self.how.workers.work(replace(state.job, last=True))

@@ -17,7 +17,13 @@ done, in the thread that meshes. Returning False (not None) stops the work with 
 it raises comes through.
 """
 
-_STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
+_STAGES = {
+    "sizing": (0.0, 0.2), "packing": (0.2, 0.4), "boundary": (0.4, 0.5), "optimisation": (0.5, 0.9),
+    "faces": (0.2, 0.9),  # of a CAD model: each of them is packed, bounded and optimised
+    "mapping": (0.9, 1.0),
+}  # fmt: skip
+"""Fractions of the work that are done when a stage begins, and when it ends."""
+
 _NEARER = 0.1  # fraction of the rest of a stage that a pulse advances
 
 logger = logging.getLogger(__name__)
@@ -60,7 +66,7 @@ class Stopwatch:
     def stage(self, name: str) -> Iterator[None]:
         """Time what is done within, under ``name``; raises ``Cancelled`` before it starts."""
         self._name = name
-        self._tell(_STAGES[name])
+        self._tell(_STAGES[name][0])
         start = time.perf_counter()
         try:
             yield
@@ -83,12 +89,11 @@ class Stopwatch:
     def pulse(self, within: float | None = None) -> None:
         """Say that the stage goes on; raises ``Cancelled`` when that is not wanted.
 
-        within: fraction of the way to the next stage, 0 to 1; None: a little nearer to it.
+        within: fraction of the way to its end, 0 to 1; None: a little nearer to it.
         """
         if self._progress is None:
             return
-        first = _STAGES[self._name]
-        last = min([start for start in _STAGES.values() if start > first], default=1.0)
+        first, last = _STAGES[self._name]
         if within is None:
             self._tell(self._done + _NEARER * max(0.0, last - self._done))
         else:

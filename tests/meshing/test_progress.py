@@ -28,8 +28,15 @@ def test_shares_never_fall_and_end_below_one(kind):
     fractions = [fraction for _, fraction in heard]
     assert fractions == sorted(fractions) and fractions[0] == 0.0 and fractions[-1] <= 1.0
     stages = {stage for stage, _ in heard}
-    assert {"sizing", "packing", "mapping"} <= stages
+    assert stages >= {"sizing", "faces" if kind == "model" else "packing", "mapping"}
     assert len(set(fractions)) > 6  # faces and passes are heard of, not only stages
+
+
+def test_faces_are_most_of_the_work_of_a_model():
+    heard = []
+    sm.mesh(THINGS["model"][0](), 0.3, progress=lambda *said: heard.append(said), jobs=1)
+    last = max(fraction for stage, fraction in heard if stage == "faces")
+    assert last == pytest.approx(0.9) and "packing" not in dict(heard)
 
 
 @pytest.mark.parametrize("kind", THINGS)
