@@ -20,16 +20,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.edges import CurvePieces
 from surfmesh._core.quality import TriangleStars, segment_samples
 from surfmesh._core.quality import largest_values as largest
-from surfmesh._core.surfaces import Curve
-from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import as_point, as_uv
-from surfmesh.quality.measures.surface_to_mesh import SurfaceDeviation
+from surfmesh.quality.measures.surface_to_mesh import SegmentCurves, SurfaceDeviation
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -94,32 +91,8 @@ def _on_rims(mesh: SurfaceMesh) -> Rule:
     return triangle, rows, weights
 
 
-@dataclass(frozen=True)
-class Curves:
-    """The segments of CAD edges, and where their ends lie on the curves of these."""
-
-    segments: NDArray[np.int32]  # (k, 2) vertices
-    ids: NDArray[np.int32]  # (k,) edges
-    ends: NDArray[np.float64]  # (k, 2) t of the edge
-    edges: tuple[CadEdge, ...]
-
-    @classmethod
-    def of(cls, mesh: SurfaceMesh) -> Curves | None:
-        """None where no curve is known."""
-        links = mesh.edge_links
-        if links is None or not links.edge_curves or links.edge_parameters is None:
-            return None
-        return cls(links.edge_segments, links.edge_ids, links.edge_parameters, links.edge_curves)
-
-    @cached_property
-    def _core_curves(self) -> list[Curve | None]:
-        """Of the edges, as the core has them; None for an edge without a curve."""
-        return [None if edge.curve is None else edge.curve.core for edge in self.edges]
-
-    @cached_property
-    def _limits(self) -> NDArray[np.float64]:
-        """(e, 2) the ends of the edges, in t of their curves."""
-        return np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
+class Curves(SegmentCurves):
+    """Points of the curves between the ends of segments."""
 
     def between(
         self, segments: NDArray[np.intp], t: NDArray[np.float64], nodes: NDArray[np.float64]
@@ -132,20 +105,10 @@ class Curves:
         numbers = self.ids[segments]
         there = segments[(numbers >= 0) & (numbers < len(self.edges))]
         found, points, off_arc = segment_samples(
-            self._core_curves, self._limits, self.ids[there], self.ends[there],
+            self.core_curves, self.limits, self.ids[there], self.ends[there],
             self.segments[there], nodes, t, ON_CURVE,
         )  # fmt: skip
         return there[found], points, off_arc
-
-    def along(self, segment: int, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """(j, 3) at ``t`` (j,) of one segment; None where its edge has no curve."""
-        edge = self.edges[self.ids[segment]] if self.ids[segment] < len(self.edges) else None
-        if edge is None or edge.curve is None:
-            return None
-        start, end = self.ends[segment]
-        pieces = CurvePieces([edge.curve.core], np.array([edge.t0]), np.array([edge.t1]))
-        whole = np.array([0, len(t)])
-        return pieces.points(np.zeros(1, np.int64), whole, start + t * (end - start))
 
 
 def _look_along_curves(search: _Search, curves: Curves, fit: Deviation) -> None:

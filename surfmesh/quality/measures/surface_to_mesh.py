@@ -60,7 +60,7 @@ def surface_deviation(
     """Distance of the surfaces from the mesh; None where ``fit``, the way back, is not finite."""
     if not np.isfinite(fit.largest):
         return None
-    faces = _FacesWithCurves(known, _Curves.of(known.mesh))
+    faces = _FacesWithCurves(known, SegmentCurves.of(known.mesh))
     search = SurfaceSearch(
         *known.arrays, fit.by_triangle, fit.largest, tolerances.chord * (1.0 + CHORD_SLACK),
         faces.are_left,
@@ -81,7 +81,7 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
     return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
 
 
-def look_along_edges(search: SurfaceSearch, mesh: SurfaceMesh, curves: _Curves | None) -> int:
+def look_along_edges(search: SurfaceSearch, mesh: SurfaceMesh, curves: SegmentCurves | None) -> int:
     """At points of the CAD edges between the nodes of their segments, or of all rims.
 
     Those of CAD edges count for that one of two faces which is farther from the mesh itself: the
@@ -98,7 +98,7 @@ def look_along_edges(search: SurfaceSearch, mesh: SurfaceMesh, curves: _Curves |
 
 
 @dataclass(frozen=True)
-class _Curves:
+class SegmentCurves:
     """The segments of CAD edges, and where their ends lie on the curves of these."""
 
     segments: NDArray[np.int32]  # (k, 2) vertices
@@ -107,7 +107,7 @@ class _Curves:
     edges: tuple[CadEdge, ...]
 
     @classmethod
-    def of(cls, mesh: SurfaceMesh) -> _Curves | None:
+    def of(cls, mesh: SurfaceMesh) -> SegmentCurves | None:
         """None where no curve is known."""
         links = mesh.edge_links
         if links is None or not links.edge_curves or links.edge_parameters is None:
@@ -146,7 +146,7 @@ class _FacesWithCurves:
     """Faces, and the curves of the edges that bound them."""
 
     known: KnownSurfaces
-    curves: _Curves | None
+    curves: SegmentCurves | None
 
     def are_left(self, uv: tuple[float, float], triangle: int) -> bool:
         """Does uv over a triangle lie beyond an edge of its face? The sides of triangles are
