@@ -22,11 +22,14 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import TriangleStars, segment_samples
 from surfmesh._core.quality import largest_values as largest
-from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import as_point, as_uv
-from surfmesh.quality.measures.surface_to_mesh import SegmentCurves, SurfaceDeviation
+from surfmesh.quality.measures.surface_to_mesh import (
+    FacesWithCurves,
+    SegmentCurves,
+    SurfaceDeviation,
+)
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -44,7 +47,6 @@ CLOSELY = np.array(
 SECOND_LOOK = 400  # triangles looked at closely, or one in 250 if that is more
 ON_CURVE = 1e-3  # of a segment: so far off the curve of its edge may its nodes be
 FIRST_FEW = 64  # points whose nearest triangle is searched for at first
-ALONG, PROJECTIONS = 17, 8  # points of an edge's curve that are put on a face, and steps to it
 MOST_COMPARED = 2_000  # points beyond the chord that are compared with every triangle
 AMONG_ALL = 16  # points that are compared with every triangle in the end, at most
 
@@ -217,6 +219,7 @@ class _Search:
     def __init__(self, known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> None:
         self.known, self.mesh = known, known.mesh
         self.curves = Curves.of(known.mesh)
+        self.faces = FacesWithCurves(known, self.curves)
         mesh = known.mesh
         chord = tolerances.at(tolerances.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
         # a triangle that is too far from the surface itself needs no second proof
@@ -312,7 +315,7 @@ class _Search:
             if count >= MOST_COMPARED or (count >= AMONG_ALL and not lowered):
                 break
             exact = self._among_all(points[k], float(distance[k]))
-            if exact > self.enough[triangle[k]] and self._is_off_face(uv[k], int(triangle[k])):
+            if exact > self.enough[triangle[k]] and self.faces.are_left(uv[k], int(triangle[k])):
                 exact = 0.0
             lowered += exact < distance[k]
             distance[k] = exact
@@ -346,49 +349,6 @@ class _Search:
             best.at_rim,
         )  # fmt: skip
 
-    def _is_off_face(self, uv: NDArray, triangle: int) -> bool:
-        """Does uv (2,) over a triangle lie beyond an edge of its face? The sides of triangles are
-        straight in (u, v), the curves that bound the face are not."""
-        mesh, curves = self.mesh, self.curves
-        if curves is None:
-            return False
-        corners = mesh.triangles[triangle].tolist()
-        (places,) = self.known.uv(np.array([triangle]))
-        t = np.linspace(0.0, 1.0, ALONG)
-        for k in range(3):
-            segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
-            points = None if segment is None else curves.along(segment, t)
-            if segment is None or points is None:
-                continue
-            ends = places[[k, (k + 1) % 3]]
-            if curves.segments[segment][0] != corners[k]:
-                ends = ends[::-1]
-            guess = ends[0] + t[:, None] * (ends[1] - ends[0])
-            surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, points, guess, PROJECTIONS)[0]
-            line[0], line[-1] = ends
-            if _crossings(places[(k + 2) % 3], uv, line) % 2:
-                return True
-        return False
-
-    @cached_property
-    def _segments(self) -> dict[frozenset[int], int]:
-        """Rows of ``edge_segments`` by their nodes."""
-        if self.curves is None:
-            return {}
-        return {frozenset(pair): k for k, pair in enumerate(self.curves.segments.tolist())}
-
     def _among_all(self, point: NDArray, distance: float) -> float:
         """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
         return self._stars.distance_from_all(tuple(point.tolist()), distance)
-
-
-def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:
-    """How often the way from start to end (2,) crosses a line (k, 2)."""
-    way, step = end - start, np.diff(line, axis=0)
-    side = way[0] * (line[:, 1] - start[1]) - way[1] * (line[:, 0] - start[0])
-    ahead, behind = (
-        step[:, 0] * (place[1] - line[:-1, 1]) - step[:, 1] * (place[0] - line[:-1, 0])
-        for place in (start, end)
-    )
-    return int(np.count_nonzero((side[1:] * side[:-1] < 0.0) & (ahead * behind < 0.0)))

@@ -60,7 +60,7 @@ def surface_deviation(
     """Distance of the surfaces from the mesh; None where ``fit``, the way back, is not finite."""
     if not np.isfinite(fit.largest):
         return None
-    faces = _FacesWithCurves(known, SegmentCurves.of(known.mesh))
+    faces = FacesWithCurves(known, SegmentCurves.of(known.mesh))
     search = SurfaceSearch(
         *known.arrays, fit.by_triangle, fit.largest, tolerances.chord * (1.0 + CHORD_SLACK),
         faces.are_left,
@@ -142,7 +142,7 @@ class SegmentCurves:
 
 
 @dataclass(frozen=True)
-class _FacesWithCurves:
+class FacesWithCurves:
     """Faces, and the curves of the edges that bound them."""
 
     known: KnownSurfaces
