@@ -20,6 +20,10 @@ def add_sizes(parser: argparse.ArgumentParser) -> None:
         "--proof", action="store_const", const=True, help="prove that the chord holds"
     )
     sizes.add_argument(
+        "--fewest", action="store_const", const=True,
+        help="as few triangles as keep the chord, for more time",
+    )  # fmt: skip
+    sizes.add_argument(
         "--vertices", choices=("on_surface", "balanced"),
         help="balanced: off the surface, so that it lies on both sides and volumes are kept",
     )  # fmt: skip

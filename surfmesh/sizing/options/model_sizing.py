@@ -26,8 +26,8 @@ from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.sizing import Sizing
 
 OF_THE_MODEL = (
-    "growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof", "order",
-    "vertices",
+    "growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof", "fewest",
+    "order", "vertices",
 )  # fmt: skip
 """Options that cannot differ from selection to selection."""
 

@@ -90,7 +90,7 @@ def _require_numbers(table: dict[str, Any]) -> None:
     for name, value in table.items():
         if name == "vertices":
             continue  # a word, which Sizing looks at
-        flag = name in ("gap_faces", "proof")
+        flag = name in ("gap_faces", "proof", "fewest")
         if isinstance(value, bool) != flag or not isinstance(value, (int, float)):
             what = "true or false" if flag else "a number"
             raise SizingError(f"{name} must be {what}, not {value!r:.60}")

@@ -48,7 +48,7 @@ class Sizing:
 
     How near: ``chord``, ``angle``, ``volume``, ``proof``. How long: ``size``, ``min_size``,
     ``max_size``, ``sources``, ``gap``, ``gap_faces``. How they change: ``growth``, ``anisotropy``.
-    How many: ``triangles``, ``limit``. Of what kind: ``order``, ``vertices``. Each has its own
+    How many: ``triangles``, ``fewest``, ``limit``. Of what kind: ``order``, ``vertices``. Each has its own
     lines where it is defined, and in docs/sizing.md.
 
     With nothing given the size follows from the surface: a chord error of a thousandth of its
@@ -98,6 +98,11 @@ class Sizing:
     proof: bool = False
     """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
     smaller until they do, or the report says which are not proved. See docs/proof.md."""
+
+    fewest: bool = False
+    """As few triangles as keep ``chord``, for more time a triangle and a little less shape: sizes
+    follow the direction of each triangle's edges, and with ``anisotropy`` vertices move to where
+    triangles may stay large. See docs/sizing.md."""
 
     order: int = 1
     """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
@@ -162,7 +167,7 @@ class Sizing:
         self._check_order_of_sizes()
 
     def _check_choices(self) -> None:
-        """What excludes each other of ``order``, ``proof`` and ``vertices``."""
+        """What excludes each other of ``order``, ``proof``, ``fewest`` and ``vertices``."""
         if self.order not in (1, 2):
             raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
         if not isinstance(self.proof, bool):
@@ -172,6 +177,12 @@ class Sizing:
         if self.vertices not in (ON_SURFACE, BALANCED):
             known = f"{ON_SURFACE!r} or {BALANCED!r}"
             raise SizingError(f"vertices is {known}, not {shown(self.vertices)}")
+        if not isinstance(self.fewest, bool):
+            raise SizingError(f"fewest is True or False, not {shown(self.fewest)}")
+        if self.fewest and self.chord is None and self.triangles is None:
+            raise SizingError("fewest needs a chord: it is what the triangles are to keep")
+        if self.fewest and self.is_curved:
+            raise SizingError("fewest is of straight triangles: those of order 2 are few already")
         if self.proof and self.is_balanced:
             raise SizingError("proof needs vertices on the surface: they cannot be balanced too")
         if self.order == 2 and self.is_balanced:
