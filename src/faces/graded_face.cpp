@@ -74,7 +74,7 @@ FieldPlan plan_of(const GradedFace& face, const Chart& chart, const CoincidentSi
     return {grid,
             extent,
             {extent.x / grid.nx, extent.y / grid.ny},
-            face.asked->slope,
+            face.slope,
             LARGEST_IN_BOX * std::max(extent.x, extent.y),
             sides.partner,
             sides.reversed,
@@ -99,7 +99,7 @@ struct GradedField {
 /// Nothing where sizes cannot be graded, a side is a point, or the surface could not tell.
 std::optional<GradedField> graded_field(const GradedFace& face) {
     const FaceBoundary& b = *face.boundary;
-    const AskedSizes& asked = *face.asked;
+    const AskedRules& asked = *face.asked;
     const Surface& surface = *face.surface.over_box;
     SurfaceReader reader(surface);
     const double diagonal = diagonal_of(reader);
@@ -109,7 +109,7 @@ std::optional<GradedField> graded_field(const GradedFace& face) {
     bool on_lattice = false;
     if (may_form_lattice(asked)) {
         SizeRules of_lattice = rules_on(asked, diagonal, true);
-        on_lattice = keeps_lattice(reader, chart.extent(), of_lattice, asked.slope);
+        on_lattice = keeps_lattice(reader, chart.extent(), of_lattice, face.slope);
         if (on_lattice) rules = std::move(of_lattice);
     }
     CoincidentSides sides;
@@ -117,7 +117,7 @@ std::optional<GradedField> graded_field(const GradedFace& face) {
     if (reader.failed() || sides.has_point()) return {};
     const auto limits = std::make_shared<const SizeLimits>(
         std::span<const Point3>{b.points.data(), b.points.size()},
-        std::span<const double>{b.sizes.data(), b.sizes.size()}, asked.slope,
+        std::span<const double>{b.sizes.data(), b.sizes.size()}, face.slope,
         std::span<const MetricRoot3>{});
     FieldBuilder builder(plan_of(face, chart, sides));
     SurfaceLaw law(surface, chart, std::move(rules), std::nullopt, {limits, 0.0, false});

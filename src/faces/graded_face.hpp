@@ -8,8 +8,8 @@
 
 #include <memory>
 
-#include "faces/asked_sizes.hpp"
 #include "faces/face_mesh.hpp"
+#include "sizing/asked_rules.hpp"
 
 namespace surfmesh {
 
@@ -25,7 +25,8 @@ struct KnownSurface {
 struct GradedFace {
     KnownSurface surface;
     std::shared_ptr<const FaceBoundary> boundary;
-    std::shared_ptr<const AskedSizes> asked;
+    std::shared_ptr<const AskedRules> asked;
+    double slope;       // growth of the size per length, at most
     FaceManner manner;  // whether sizes are for a lattice is found out
 };
 

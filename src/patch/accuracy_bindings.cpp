@@ -87,8 +87,6 @@ void bind_deviations(nb::module_& m) {
 }  // namespace
 
 void bind_accuracy(nb::module_& m) {
-    m.attr("FINEST_SIZE") = FINEST_SIZE;
-    m.attr("FINEST_BY_ANGLE") = FINEST_BY_ANGLE;
     m.attr("LEAST_OF_CHORD") = LEAST_OF_CHORD;
     m.def(
         "dense_samples", [] { return view(Array<BarycentricWeights>(std::span(DENSE_SAMPLES))); },

@@ -3,6 +3,7 @@
 
 #include "optimisation/dihedral.hpp"
 #include "patch/patch_state.hpp"
+#include "sizing/curvature_sizes.hpp"
 
 namespace surfmesh {
 

@@ -4,16 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "sizing/curvature_sizes.hpp"
+#include "sizing/size_bounds.hpp"
 
 namespace surfmesh {
-
-/// No size is smaller, as a fraction of the diagonal: at an apex the curvature is infinite.
-inline constexpr double FINEST_SIZE = 1e-5;
-
-/// ``angle`` asks for no smaller size, as a fraction of the diagonal: triangles about an apex are
-/// bent by as much at any size.
-inline constexpr double FINEST_BY_ANGLE = 2e-4;
 
 /// A bend is sharp, and no size smaller, below this fraction of ``chord``.
 inline constexpr double LEAST_OF_CHORD = 0.5;

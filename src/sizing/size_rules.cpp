@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sizing/size_bounds.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -68,6 +70,10 @@ bool AngleRule::principal_sizes(std::span<const PrincipalCurvatures> k,
         out[i] = {most(first, finest_), most(second, finest_)};
     }
     return true;
+}
+
+std::shared_ptr<const CurvatureRule> AngleRule::on_extent(double diagonal) const {
+    return std::make_shared<AngleRule>(angle_, FINEST_BY_ANGLE * diagonal);
 }
 
 bool NormalDeviationRule::sizes(std::span<const PrincipalCurvatures> k,

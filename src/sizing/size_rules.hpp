@@ -29,6 +29,11 @@ class CurvatureRule {
     [[nodiscard]] virtual bool principal_sizes(std::span<const PrincipalCurvatures> k,
                                                std::span<const double> ratio,
                                                std::span<PrincipalSizes> out) const = 0;
+    /// The rule on a surface of this diagonal; nothing where that makes no difference.
+    [[nodiscard]] virtual std::shared_ptr<const CurvatureRule> on_extent(
+        double /*diagonal*/) const {
+        return {};
+    }
     [[nodiscard]] virtual std::exception_ptr take_failure() const { return {}; }
 };
 
@@ -80,6 +85,7 @@ class AngleRule final : public CurvatureRule {
     bool sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const override;
     bool principal_sizes(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
                          std::span<PrincipalSizes> out) const override;
+    std::shared_ptr<const CurvatureRule> on_extent(double diagonal) const override;
 
   private:
     double angle_, finest_;

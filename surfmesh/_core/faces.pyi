@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 import surfmesh._core.fields
 import surfmesh._core.patch
+import surfmesh._core.sizing
 import surfmesh._core.surfaces
 
 
@@ -214,20 +215,12 @@ class InwardFace:
         Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
         """
 
-class AskedSizes:
-    """What is asked for on any face, the same in all directions."""
-
-    def __init__(self, *, chord: float | None, angle: float | None, size: float | None, min_size: float | None, max_size: float | None, is_curved: bool, is_width: bool, slope: float, default_angle: float, default_largest: float) -> None:
-        """
-        Model units and degrees; at least one of chord, angle and size is there. is_curved: chord is that of quadratic triangles. is_width: it is that of the whole band that a triangle needs. slope: growth of the size per length. default_angle: of neighbours' normals, where a chord alone is asked for. default_largest: size, as a fraction of the diagonal, where none is stated.
-        """
-
 class GradedFace:
     """A face whose sizes follow from its curvature and its edges."""
 
-    def __init__(self, of_face: surfmesh._core.surfaces.Surface, over_box: surfmesh._core.surfaces.Surface, is_steady: Sequence[bool], pieces: int, boundary: FaceBoundary, asked: AskedSizes, manner: FaceManner) -> None:
+    def __init__(self, of_face: surfmesh._core.surfaces.Surface, over_box: surfmesh._core.surfaces.Surface, is_steady: Sequence[bool], pieces: int, boundary: FaceBoundary, asked: surfmesh._core.sizing.AskedRules, slope: float, manner: FaceManner) -> None:
         """
-        of_face: the surface over the domain of the face; over_box: over the box of its boundary. is_steady: |r_u| is the same all along u, |r_v| along v. pieces: smooth ones over the box. boundary: without degenerate coedges.
+        of_face: the surface over the domain of the face; over_box: over the box of its boundary. is_steady: |r_u| is the same all along u, |r_v| along v. pieces: smooth ones over the box. boundary: without degenerate coedges. slope: growth of the size per length.
         """
 
 class FaceRows:

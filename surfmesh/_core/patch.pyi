@@ -19,10 +19,6 @@ SHORTEST: float = 0.66
 
 LONGEST: float = 1.45
 
-FINEST_SIZE: float = 1e-05
-
-FINEST_BY_ANGLE: float = 0.0002
-
 LEAST_OF_CHORD: float = 0.5
 
 def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:

@@ -106,12 +106,55 @@ class CallbackPlaceRule(PlaceRule):
     def __init__(self, rule: object) -> None:
         """rule: a PlaceRule of surfmesh.sizing.rules.rule."""
 
+FINEST_SIZE: float = 1e-05
+
+FINEST_BY_ANGLE: float = 0.0002
+
+DEFAULT_MAX_SIZE: float = 0.1
+
+LONGEST_SIZE: float = 1.0
+
+class StatedBounds:
+    """What bounds of sizes are asked for, model units."""
+
+    def __init__(self, *, min_size: float | None, max_size: float | None, size: float | None, has_size: bool, is_anisotropic: bool) -> None:
+        """size: the same everywhere. has_size: that, or a law of sizes."""
+
+class SizeBounds:
+    """What the least of all rules is kept within."""
+
+    @property
+    def smallest(self) -> float: ...
+
+    @property
+    def largest(self) -> float:
+        """It may be infinite."""
+
+    @property
+    def longest(self) -> float:
+        """Along the longer axis of an anisotropic metric."""
+
+    @property
+    def default_largest(self) -> float | None:
+        """Where none is stated; the smallest size may be larger."""
+
+def size_bounds(stated: StatedBounds, diagonal: float) -> SizeBounds:
+    """On a surface whose bounding box has this diagonal, model units."""
+
 class SizeRules:
     """All rules that hold on one surface."""
 
     def __init__(self, by_curvature: Sequence[CurvatureRule], by_place: Sequence[PlaceRule], clamp: tuple[float, float], longest: float, anisotropy: float) -> None:
         """
         clamp: the smallest and the largest size. longest: the largest along the longer axis of an anisotropic metric. anisotropy: largest ratio of two sizes.
+        """
+
+class AskedRules:
+    """What is asked for on any surface, the same in all directions."""
+
+    def __init__(self, by_curvature: Sequence[CurvatureRule], on_lattice: Sequence[CurvatureRule], by_place: Sequence[PlaceRule], bounds: StatedBounds) -> None:
+        """
+        At least one rule. on_lattice: those by curvature for triangles that form a lattice; none where they may not.
         """
 
 class SizeLimits:

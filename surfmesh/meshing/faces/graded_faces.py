@@ -5,12 +5,13 @@ Left to ``face_mesh.py``: poles, sizes that depend on the direction or that a la
 earlier rounds ask for, and triangles that are to be proved.
 """
 
-from surfmesh._core.faces import AskedSizes, FaceManner, GradedFace
+from surfmesh._core.faces import FaceManner, GradedFace
+from surfmesh._core.sizing import AskedRules
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.inward_faces import face_manner
-from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_rules import asked_rules
 
 KINDS = frozenset(
     ("cone", "sphere", "torus", "bspline", "bezier", "extrusion", "revolution", "offset")
@@ -21,7 +22,7 @@ class GradedFaces:
     """Makes them of jobs: what holds for all faces with one set of sizes is made once."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[Sizing, AskedSizes | None]] = {}
+        self._known: dict[int, tuple[Sizing, AskedRules | None]] = {}
         """By the ``id`` of the sizes, which are kept so that no others get it."""
         self._manners: dict[tuple[int, bool], FaceManner] = {}
 
@@ -30,21 +31,22 @@ class GradedFaces:
 
         Raises ``SurfaceError`` for a boundary without width or height.
         """
-        surface, boundary = job.surface, job.boundary
+        surface, boundary, sizing = job.surface, job.boundary, job.sizing
         if surface.kind not in KINDS or job.limits is not None or boundary.has_degenerate:
             return None
-        asked = self._asked(job.sizing)
+        asked = None if sizing.proof else self._asked(sizing)
         if asked is None:
             return None
         over_box = surface.with_domain(boundary.box)
         return GradedFace(
             as_core_surface(surface), as_core_surface(over_box), over_box.steady_axes,
-            over_box.pieces, boundary, asked, self._manner(job.sizing, job.optimise),
+            over_box.pieces, boundary, asked, sizing.gradient,
+            self._manner(sizing, job.optimise),
         )  # fmt: skip
 
-    def _asked(self, sizing: Sizing) -> AskedSizes | None:
+    def _asked(self, sizing: Sizing) -> AskedRules | None:
         if id(sizing) not in self._known:
-            self._known[id(sizing)] = sizing, asked_sizes(sizing)
+            self._known[id(sizing)] = sizing, asked_rules(sizing)
         return self._known[id(sizing)][1]
 
     def _manner(self, sizing: Sizing, optimise: bool) -> FaceManner:
@@ -52,17 +54,3 @@ class GradedFaces:
         if key not in self._manners:
             self._manners[key] = face_manner(sizing, optimise, is_first=True, on_lattice=False)
         return self._manners[key]
-
-
-def asked_sizes(sizing: Sizing) -> AskedSizes | None:
-    """The same as the core has it; None where only Python knows what is asked for."""
-    size = sizing.size
-    if sizing.is_anisotropic or sizing.has_law or sizing.proof or callable(size):
-        return None
-    if sizing.chord is None and sizing.angle is None and size is None:
-        return None
-    return AskedSizes(
-        chord=sizing.chord, angle=sizing.angle, size=size, min_size=sizing.min_size,
-        max_size=sizing.max_size, is_curved=sizing.is_curved, is_width=sizing.is_balanced,
-        slope=sizing.gradient, default_angle=DEFAULT_ANGLE, default_largest=DEFAULT_MAX_SIZE,
-    )  # fmt: skip

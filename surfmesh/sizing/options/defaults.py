@@ -2,22 +2,23 @@
 bounding box, model units."""
 
 from surfmesh._core import patch
+from surfmesh._core import sizing as core_sizing
 from surfmesh.errors import SizingError
 from surfmesh.sizing.options.sizing import Sizing
 
 DEFAULT_CHORD = 1e-3
 """``chord`` where neither a chord nor an angle nor a size is asked for."""
 
-DEFAULT_MAX_SIZE = 0.1
+DEFAULT_MAX_SIZE = core_sizing.DEFAULT_MAX_SIZE  # 0.1
 """``max_size``."""
 
-LONGEST = 1.0
+LONGEST = core_sizing.LONGEST_SIZE  # 1
 """Likewise for the longer of two sizes of an anisotropic metric."""
 
-FINEST_SIZE = patch.FINEST_SIZE  # 1e-5
+FINEST_SIZE = core_sizing.FINEST_SIZE  # 1e-5
 """No size is smaller, unless ``min_size`` says so: at an apex the curvature is infinite."""
 
-FINEST_BY_ANGLE = patch.FINEST_BY_ANGLE  # 2e-4
+FINEST_BY_ANGLE = core_sizing.FINEST_BY_ANGLE  # 2e-4
 """``angle`` asks for no smaller size: triangles about an apex are bent by as much at any size."""
 
 DEFAULT_ANGLE = 45.0

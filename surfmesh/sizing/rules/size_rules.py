@@ -10,12 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh._core import sizing as core_sizing
-from surfmesh.sizing.options.defaults import (
-    DEFAULT_MAX_SIZE,
-    FINEST_SIZE,
-    LONGEST,
-    with_default_chord,
-)
+from surfmesh.sizing.options.defaults import with_default_chord
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.angle_rule import AngleRule
 from surfmesh.sizing.rules.chord_rule import ChordRule
@@ -29,6 +24,11 @@ RULES: tuple[type[Rule], ...] = (
     ChordRule, QuadraticChordRule, AngleRule, DefaultAngleRule, SizeRule, SourceRule,
 )  # fmt: skip
 """Every kind of rule, in the order in which they are heard."""
+
+NO_EXTENT = 0.0
+"""A diagonal for rules on no surface in particular."""
+
+PYTHONS_OWN = core_sizing.CallbackCurvatureRule, core_sizing.CallbackPlaceRule
 
 
 @dataclass(frozen=True)
@@ -64,24 +64,12 @@ class SizeRules:
         """``diagonal``: of the surface's bounding box, model units."""
         sizing = with_default_chord(sizing, diagonal)
         rules = [rule for kind in RULES for rule in kind.asked_for(sizing, diagonal)]
-        bounds = list(stated_bounds(sizing))
-        if sizing.max_size is None and sizing.size is None:
-            largest = DEFAULT_MAX_SIZE * diagonal
-            bounds.append(Bound("a tenth of the diagonal", largest, is_default=True))
-        tops = [bound.size for bound in bounds if not bound.is_floor]
-        tops += [sizing.size] if isinstance(sizing.size, float) else []
-        coarsest = min(tops, default=np.inf)  # where a law alone decides there is none
-        finest = sizing.min_size or min(FINEST_SIZE * diagonal, coarsest)
-        if not sizing.min_size:
-            words = "no size is smaller, unless min_size says so"
-            bounds.append(Bound(words, finest, is_floor=True, is_default=True))
-        coarsest = max(coarsest, finest)
-        longest = coarsest
-        if sizing.is_anisotropic and not sizing.max_size and not isinstance(sizing.size, float):
-            longest = max(coarsest, LONGEST * diagonal)
+        allowed = core_sizing.size_bounds(core_bounds(sizing), diagonal)
+        bounds = (*stated_bounds(sizing), *default_bounds(sizing, allowed))
         by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
         by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
-        return cls(sizing, by_curvature, by_place, tuple(bounds), (finest, coarsest), longest)
+        clamp = allowed.smallest, allowed.largest
+        return cls(sizing, by_curvature, by_place, bounds, clamp, allowed.longest)
 
     def on_lattice(self) -> "SizeRules | None":
         """For triangles that form a lattice along principal directions; None where there is none.
@@ -172,8 +160,41 @@ def stated_bounds(sizing: Sizing) -> Iterator[Bound]:
         yield Bound(f"min_size {sizing.min_size:g}", sizing.min_size, is_floor=True)
 
 
+def default_bounds(sizing: Sizing, allowed: core_sizing.SizeBounds) -> Iterator[Bound]:
+    """Those that hold on a surface because nothing else is asked for."""
+    if allowed.default_largest is not None:
+        yield Bound("a tenth of the diagonal", allowed.default_largest, is_default=True)
+    if sizing.min_size is None:
+        words = "no size is smaller, unless min_size says so"
+        yield Bound(words, allowed.smallest, is_floor=True, is_default=True)
+
+
+def core_bounds(sizing: Sizing) -> core_sizing.StatedBounds:
+    """What ``sizing`` says of the smallest and the largest size, as the core hears it."""
+    return core_sizing.StatedBounds(
+        min_size=sizing.min_size, max_size=sizing.max_size,
+        size=sizing.size if isinstance(sizing.size, float) else None,
+        has_size=sizing.size is not None, is_anisotropic=sizing.is_anisotropic,
+    )  # fmt: skip
+
+
+def asked_rules(sizing: Sizing) -> core_sizing.AskedRules | None:
+    """What the core asks on surfaces that it measures itself; None where some rule is Python's
+    alone, where sizes depend on the direction, and where a default chord depends on the extent."""
+    if sizing.is_anisotropic or not (sizing.chord or sizing.angle or sizing.size):
+        return None
+    rules = SizeRules.of(sizing, NO_EXTENT)
+    of_lattice = rules.on_lattice()
+    by_curvature = [rule.core for rule in rules.by_curvature]
+    on_lattice = [rule.core for rule in of_lattice.by_curvature] if of_lattice else []
+    by_place = [rule.core for rule in rules.by_place]
+    if any(isinstance(rule, PYTHONS_OWN) for rule in (*by_curvature, *by_place)):
+        return None
+    return core_sizing.AskedRules(by_curvature, on_lattice, by_place, core_bounds(sizing))
+
+
 def stated_rules(sizing: Sizing) -> Iterator[Rule | Bound]:
     """What ``sizing`` asks for by name: no defaults, on no surface in particular."""
     for kind in RULES:
-        yield from (rule for rule in kind.asked_for(sizing, 0.0) if not rule.is_default)
+        yield from (rule for rule in kind.asked_for(sizing, NO_EXTENT) if not rule.is_default)
     yield from stated_bounds(sizing)

@@ -1,5 +1,7 @@
 """Curved faces meshed by the core in a queue: each as Python meshes it by itself."""
 
+from dataclasses import replace
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -9,8 +11,9 @@ from surfmesh._core import faces as core
 from surfmesh.meshing.faces import face_mesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
-from surfmesh.meshing.faces.graded_faces import GradedFaces, asked_sizes
+from surfmesh.meshing.faces.graded_faces import GradedFaces
 from surfmesh.sizing.rules.size_limits import SizeLimits
+from surfmesh.sizing.rules.size_rules import asked_rules
 from tests.meshing.faces.test_face_queue import jobs_of, require_same, worked
 
 
@@ -77,33 +80,26 @@ def test_what_the_core_does_not_know_is_left():
     assert GradedFaces().face(job) is not None
     limits = SizeLimits(np.zeros((1, 3)), np.ones(1), 0.2)
     laws = sm.Sizing(size=lambda points: np.full(len(points), 0.3))
-    for sizing in (laws, sm.Sizing(chord=0.01, anisotropy=4.0), sm.Sizing(chord=0.01, proof=True)):
-        assert asked_sizes(sizing) is None
-    later = type(job)(job.surface, job.boundary, job.sizing, limits)
+    near = sm.Sizing(size=0.3, sources=[sm.Near((0, 0, 0), 0.1)])
+    for sizing in (laws, near, sm.Sizing(chord=0.01, anisotropy=4.0), sm.Sizing()):
+        assert asked_rules(sizing) is None
+    for sizing in (laws, sm.Sizing(chord=0.01, proof=True)):
+        assert GradedFaces().face(replace(job, sizing=sizing)) is None
+    later = replace(job, limits=limits)
     assert GradedFaces().face(later) is None
     assert FaceQueue([later], [0]).left == [0]
     pole = next(j for j in jobs_of(cq.Workplane().sphere(1), 0.3) if j.boundary.has_degenerate)
     assert GradedFaces().face(pole) is None
 
 
-def test_sizes_that_ask_for_nothing_are_refused():
-    asked = dict.fromkeys(("chord", "angle", "size", "min_size", "max_size"))
-    others = {"is_curved": False, "is_width": False, "default_angle": 45.0, "default_largest": 0.1}
-    with pytest.raises(ValueError, match="no chord, angle or size"):
-        core.AskedSizes(**asked, **others, slope=0.2)
-    for wrong in ({"chord": 0.0}, {"size": float("nan")}, {"size": 1.0, "max_size": -1.0}):
-        with pytest.raises(ValueError, match="positive"):
-            core.AskedSizes(**asked | wrong, **others, slope=0.2)
-    with pytest.raises(ValueError, match="positive"):
-        core.AskedSizes(**asked | {"size": 1.0}, **others, slope=0.0)
-
-
 def test_faces_with_poles_or_without_pieces_are_refused():
     (job,) = (j for j in jobs_of(cq.Workplane().sphere(1), 0.3) if j.boundary.has_degenerate)
-    asked, manner = asked_sizes(sm.Sizing(size=1.0)), core.FaceManner(None, None, 0.0)
-    surface = job.surface.core
+    asked, manner = asked_rules(sm.Sizing(size=1.0)), core.FaceManner(None, None, 0.0)
+    surface, steady = job.surface.core, (True, True)
     with pytest.raises(ValueError, match="degenerate"):
-        core.GradedFace(surface, surface, (True, True), 1, job.boundary, asked, manner)
+        core.GradedFace(surface, surface, steady, 1, job.boundary, asked, 0.2, manner)
     whole = next(j for j in jobs_of(loft(), 0.5) if not j.boundary.has_degenerate)
     with pytest.raises(ValueError, match="pieces"):
-        core.GradedFace(surface, surface, (True, True), 0, whole.boundary, asked, manner)
+        core.GradedFace(surface, surface, steady, 0, whole.boundary, asked, 0.2, manner)
+    with pytest.raises(ValueError, match="slope"):
+        core.GradedFace(surface, surface, steady, 1, whole.boundary, asked, 0.0, manner)

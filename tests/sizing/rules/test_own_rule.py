@@ -34,3 +34,10 @@ def test_a_rule_of_ones_own(monkeypatch, ratio):
     z = abs(found.point[2])
     assert row.size == found.target_size == pytest.approx(0.1 + 0.05 * z)
     assert found.size == pytest.approx(row.size, rel=0.03)
+
+
+def test_a_rule_of_ones_own_is_not_for_the_core_alone(monkeypatch):
+    sizing = sm.Sizing(chord=0.1)
+    assert size_rules.asked_rules(sizing) is not None
+    monkeypatch.setattr(size_rules, "RULES", (*size_rules.RULES, Downhill))
+    assert size_rules.asked_rules(sizing) is None
