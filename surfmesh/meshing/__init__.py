@@ -1,6 +1,7 @@
 """From a surface, a domain or a model and its sizes to triangles.
 
 parametric_mesh, planar_mesh, model_mesh: the three drivers, which others call.
+model_rounds: the rounds in which a CAD model is meshed, for one set of sizes.
 boundary: loops in (u, v), cut to metric length, taken apart, inserted.
 patch: one domain and one size field become triangles, once for all; the rounds of refinement.
 edges: edges of a CAD model, each cut once for all its faces.

@@ -15,6 +15,8 @@ edge_mates: edges that run side by side are cut with nodes that face each other.
 edge_sampling: samples along the edges of a CAD model, and the edge lengths that they ask for by
     themselves.
 face_proximity: near faces of a solid: the distance between them as a local size of both.
+model_rules: sizes that follow from a model as a whole: from its volumes, and from gaps between its
+    faces.
 inner_sizes: what the sizes inside a face ask for along its edges, which know their own
     surroundings only.
 polygon_lengths: how far along a polygon in space its nodes lie.

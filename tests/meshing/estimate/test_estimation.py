@@ -14,6 +14,7 @@ from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
 from surfmesh.meshing.estimate.face_counts import Alike, counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.inward_faces import InwardFaces
@@ -124,7 +125,7 @@ def test_where_triangles_fold_at_first_a_small_mesh_is_made():
 
 def test_areas_in_the_core_are_those_of_the_size_fields():
     plate = cq.Workplane().box(12, 9, 1).edges("|Z").fillet(2).faces(">Z").workplane().hole(3)
-    before = model_mesh._Unmeshed(sm.from_cadquery(plate), 0.6)
+    before = UnmeshedModel(sm.from_cadquery(plate), 0.6)
     makes = InwardFaces()
     areas = metric_areas_inward([makes.face(job) for job in before.jobs])
     fields = [face_field(job)[1] for job in before.jobs]
@@ -138,7 +139,7 @@ def test_where_sizes_change_steeply_there_are_more_triangles_than_fit_by_area(gr
     model = sm.from_cadquery(plate)
     sizing = sm.Sizing(chord=0.006, max_size=8, growth=growth)
     mesh = sm.mesh(model, sizing)
-    found = model_mesh._Unmeshed(model, sizing, few=True).counts(model_estimate.FaceFields())
+    found = UnmeshedModel(model, sizing, few=True).counts(model_estimate.FaceFields())
     assert found.sum() == pytest.approx(len(mesh.triangles), rel=0.03)
 
 
@@ -188,7 +189,7 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
     looked = []
     for shape, most in ((alike, 20), (differing, 80)):
         model = sm.from_cadquery(shape)
-        before = model_mesh._Unmeshed(model, 0.15)
+        before = UnmeshedModel(model, 0.15)
         areas = np.array([face.area for face in model.faces])
         fields = model_estimate.FaceFields()
         every = model_estimate.counts_by_area(before.jobs, fields)

@@ -15,11 +15,11 @@ from surfmesh.cad.reading.readers import read_here
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.meshing.edges.edge_rules import EdgeRules
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.explain import explanation
 from surfmesh.meshing.explain.axis_sizes import LOWERED
 from surfmesh.meshing.explain.nearest_place import GRID, nearest_on_model, nearest_on_surface
 from surfmesh.meshing.explain.origins import EdgePlaces
-from surfmesh.meshing.model_mesh import _Unmeshed
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.sizing.rules.rim_rule import Rims
@@ -128,7 +128,7 @@ def test_on_the_gallery():
 
 
 def check_model(model, sizing, count, rng, monkeypatch):
-    before = _Unmeshed(model, sizing)
+    before = UnmeshedModel(model, sizing)
     wanted, samples, jobs = before.wanted, before.samples, before.jobs
     fields = lru_cache(None)(lambda number: made(jobs[number]))
     made = explanation.face_field

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.explain.axis_sizes import LOWERED, Principal, field_axes
 from surfmesh.meshing.faces.face_mesh import face_field
-from surfmesh.meshing.model_mesh import _Unmeshed
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.rules.rim_rule import Rims
@@ -74,7 +74,7 @@ def part():
 @pytest.mark.parametrize("sizes", [{"chord": 0.05}, {"chord": 1.5, "growth": 2.0}, {"angle": 20.0}])
 def test_on_a_cad_part(part, sizes):
     sizing = sm.Sizing(**sizes)
-    jobs = _Unmeshed(part, sizing).jobs
+    jobs = UnmeshedModel(part, sizing).jobs
     rng = np.random.default_rng(3)
     for number in range(len(part.faces)):
         surface, field = face_field(jobs[number])

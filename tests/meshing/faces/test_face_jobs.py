@@ -4,16 +4,16 @@ import cadquery as cq
 import pytest
 
 import surfmesh as sm
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_state import later_jobs
-from surfmesh.meshing.model_mesh import _Unmeshed
 
 
 @pytest.fixture(scope="module")
 def unmeshed():
     """A ball beside a plate with a countersunk hole: with poles, so with edges that are points."""
     plate = cq.Workplane().box(6, 4, 1).faces(">Z").workplane().cskHole(0.6, 1.4, 82)
-    return _Unmeshed(sm.from_cadquery(plate.add(cq.Workplane().sphere(0.6))), 0.4)
+    return UnmeshedModel(sm.from_cadquery(plate.add(cq.Workplane().sphere(0.6))), 0.4)
 
 
 def test_their_nodes_are_known_before_they_are_made(unmeshed):

@@ -10,19 +10,19 @@ import pytest
 
 import surfmesh as sm
 from surfmesh._core import faces as core
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.faces import face_queue
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.face_workers import FaceWorkers
 from surfmesh.meshing.faces.inward_faces import inward_face
-from surfmesh.meshing.model_mesh import _Unmeshed
 
 ARRAYS = ("points", "slots", "triangles", "uv_points", "uv_triangles", "sizes")
 
 
 def jobs_of(part, sizing):
-    return _Unmeshed(sm.from_cadquery(part), sizing).jobs
+    return UnmeshedModel(sm.from_cadquery(part), sizing).jobs
 
 
 def plate():

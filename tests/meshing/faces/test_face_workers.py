@@ -20,9 +20,9 @@ from hypothesis import strategies as st
 import surfmesh as sm
 from surfmesh._core import allow_threads
 from surfmesh.errors import Cancelled, MeshingError
+from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
 from surfmesh.meshing.faces import face_queue, face_workers
 from surfmesh.meshing.faces.face_workers import FaceWorkers, batches_of
-from surfmesh.meshing.model_mesh import _Unmeshed
 
 SIZE = 0.7
 
@@ -145,7 +145,7 @@ def test_processes_change_nothing(by_one):
 
 
 def test_a_job_is_done_without_the_cad_kernel():
-    jobs = pickle.dumps(_Unmeshed(sm.from_cadquery(part()), SIZE).jobs)
+    jobs = pickle.dumps(UnmeshedModel(sm.from_cadquery(part()), SIZE).jobs)
     code = """if True:
         import pickle, sys
         from surfmesh.meshing.faces.face_mesh import mesh_face

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.meshing import model_mesh
+from surfmesh.meshing import model_rounds
 from surfmesh.meshing.edges.edge_nodes import cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.faces import opposite_faces
@@ -147,7 +147,7 @@ def test_the_other_side_of_a_wall_has_no_image_of_removed_vertices(monkeypatch):
         seen.append(given)
         return opposite_faces.copied(*given)
 
-    monkeypatch.setattr(model_mesh, "copied", spied)
+    monkeypatch.setattr(model_rounds, "copied", spied)
     sm.mesh(sm.from_cadquery(cq.Workplane().box(10, 8, 0.003)), max_size=2.0, jobs=1)
     found, *given = seen[0]
     twin = opposite_faces.copied(found, *given)
