@@ -17,6 +17,10 @@ singular_crossings: where faces and their edges cross lines that are one point i
 singular_cuts: faces are cut along lines inside them that are one point in space: the pinch of a
     torus, an apex.
 tolerances: tolerances that are true, and p-curves that keep to them.
+loop_curves: the loops of a face as curves in its plane of (u, v), and where these come near to each
+    other.
+loop_crossings: do loops cross where they come near to each other, and how deep?
+empty_loops: loops that leave no inside on their left.
 loop_faults: what is wrong with the loops of a face however finely they are cut: decided on their
     curves.
 """
