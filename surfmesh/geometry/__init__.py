@@ -13,6 +13,7 @@ planar          domains of the plane (planar_domain, curve_contacts, curve_circl
 files           formula files and domain files (surface_file, formula_file, known_facts)
 differential    forms, curvatures, charts, sides, closest points (all of it)
 inside_loops    which points lie within loops, and how many loops lie around a loop
+rings           closed polygons: the area that one runs round
 boxes           boxes around points
 parameter_grid  a grid of parameters all over a domain
 components      which things hang together

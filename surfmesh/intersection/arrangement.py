@@ -20,7 +20,8 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.small_matrices import norm, product
+from surfmesh.geometry.rings import ring_area
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.regions import polygon_of
 from surfmesh.intersection.tracing import place
 
@@ -96,7 +97,7 @@ def regions(face: CadFace, halves: Sequence[HalfEdge]) -> list[tuple[Loop, ...]]
     walks = _walks(face, halves)
     scale = np.ptp(np.array(face.surface.domain), axis=1)
     rings = [_ring(walk, scale) for walk in walks]
-    areas = np.array([_area(ring) for ring in rings])
+    areas = np.array([ring_area(ring) for ring in rings])
     size = np.array([float(np.prod(np.ptp(ring, axis=0)) + 1e-300) for ring in rings])
     outer = np.flatnonzero(areas > FLAT * size)
     outer = outer[~np.array([_is_slit(walks[k]) for k in outer], bool)]
@@ -183,11 +184,6 @@ def _are_close(turns: np.ndarray) -> bool:
 
 def _ring(walk: Loop, scale: np.ndarray) -> np.ndarray:
     return np.concatenate([polygon_of(coedge, scale)[0][:-1] for coedge in walk])
-
-
-def _area(ring: np.ndarray) -> float:
-    u, v = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(product(u, np.roll(v, -1)) - product(v, np.roll(u, -1)))
 
 
 def _is_slit(walk: Loop) -> bool:

@@ -31,11 +31,6 @@ def _on_pcurves(coedges: Sequence[CadCoedge], fraction: np.ndarray) -> np.ndarra
     return points_on([coedge.pcurve for coedge in coedges], first + fraction * (last - first))
 
 
-def next_ones(values: np.ndarray) -> np.ndarray:
-    """The one after each of n, after the last the first, as ``np.roll`` has it; much faster."""
-    return np.concatenate([values[1:], values[:1]])
-
-
 def points_of(edges: Sequence[CadEdge], fraction: np.ndarray) -> np.ndarray:
     """``evaluate`` of n edges at these fractions (k,): (n, k, 3) float.
 

@@ -12,7 +12,8 @@ import numpy as np
 
 from surfmesh.cad.model.loop_curves import LoopCurves
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
-from surfmesh.geometry.small_matrices import norm, product
+from surfmesh.geometry.rings import ring_area
+from surfmesh.geometry.small_matrices import norm
 
 FLAT = 1e-9
 """Of the square of their length: loops that enclose less enclose nothing."""
@@ -21,7 +22,7 @@ FLAT = 1e-9
 def empty_loop(loops: LoopCurves) -> str:
     """In words, when the loops leave no inside on their left."""
     rings = [_polygon(loops, k) for k in range(len(loops.of_face.loops))]
-    areas = np.array([_area(ring) for ring in rings])
+    areas = np.array([ring_area(ring) for ring in rings])
     lengths = [np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1).sum() for ring in rings]
     flat = np.abs(areas) <= np.maximum(FLAT * np.square(lengths), _slack(loops) * lengths)
     for number in np.flatnonzero(flat).tolist():
@@ -84,8 +85,3 @@ def _is_slit(loops: LoopCurves, loop: int) -> bool:
 
 def _corner(loops: LoopCurves, loop: int) -> str:
     return loops.point(loops.first[loop], 0.0)
-
-
-def _area(ring: np.ndarray) -> float:
-    x, y = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(product(x, np.roll(y, -1)) - product(y, np.roll(x, -1)))

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
-from surfmesh.cad.model.curve_samples import next_ones, points_of, walked
+from surfmesh.cad.model.curve_samples import points_of, walked
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.rings import next_ones
 from surfmesh.geometry.small_matrices import norm
 
 EDGE_FRACTIONS = np.linspace(0.0, 1.0, 17)

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfmesh.cad.model.curve_samples import next_ones, points_of, uv_of, walked
+from surfmesh.cad.model.curve_samples import points_of, uv_of, walked
 from surfmesh.geometry.inside_loops import nesting_depth
-from surfmesh.geometry.small_matrices import norm, product
+from surfmesh.geometry.rings import ring_area
+from surfmesh.geometry.small_matrices import norm
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex, Shell
@@ -45,12 +46,6 @@ def signed_areas(loops: Sequence[tuple[CadCoedge, ...]], samples: int = 24) -> l
     rings = walked([c for loop in loops for c in loop], np.arange(samples) / samples)
     last = np.cumsum([len(loop) for loop in loops]).tolist()
     return [ring_area(rings[a:b].reshape(-1, 2)) for a, b in zip([0, *last], last)]
-
-
-def ring_area(ring: np.ndarray) -> float:
-    """Area that a polygon (k, 2) runs round, positive counter-clockwise."""
-    u, v = (ring - ring.sum(axis=0) / len(ring)).T
-    return 0.5 * float(product(u, next_ones(v)) - product(v, next_ones(u)))
 
 
 def broken(model: CadModel) -> Iterator[str]:

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
-from surfmesh.cad.model.curve_samples import next_ones, walked
-from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_areas
+from surfmesh.cad.model.curve_samples import walked
+from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, signed_areas
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
+from surfmesh.geometry.rings import next_ones, ring_area
 from surfmesh.geometry.small_matrices import product
 
 Loop = tuple[CadCoedge, ...]

@@ -15,6 +15,8 @@ import numpy as np
 from surfmesh.errors import SizingError, SurfaceError
 from surfmesh.geometry.components import components
 from surfmesh.geometry.differential.sides import SideTopology
+from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.rings import ring_area
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.field.size_field import SizeField
 
@@ -71,8 +73,8 @@ def boundary_loops(
     if not loops:
         parts.append(_sides_loop(surface, sides, field, stops))
     for loop in loops:
-        depth = sum(_encloses(other, loop[0]) for other in loops if other is not loop)
-        if (_signed_area(loop) > 0.0) == (depth % 2 == 1):
+        is_hole = is_inside([other for other in loops if other is not loop], loop[:1])[0]
+        if (ring_area(loop) > 0.0) == is_hole:
             loop = loop[::-1]  # the inside is on the left of every segment
         uv = np.concatenate(
             [
@@ -94,20 +96,6 @@ def boundary_loops(
     )
 
 
-def _signed_area(loop: np.ndarray) -> float:
-    x, y = loop.T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-
-
-def _encloses(loop: np.ndarray, point: np.ndarray) -> bool:
-    """Does the polygon (k, 2) enclose the point? Crossings of a ray to the right."""
-    a, b = loop, np.roll(loop, -1, axis=0)
-    crosses = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
-    rise = np.where(crosses, b[:, 1] - a[:, 1], 1.0)
-    x = a[:, 0] + (point[1] - a[:, 1]) / rise * (b[:, 0] - a[:, 0])
-    return bool(np.count_nonzero(crosses & (x > point[0])) % 2)
-
-
 def _check_loop(surface: Surface, number: int, loop: np.ndarray) -> None:
     low, high = np.array(surface.domain).T
     outside = ((loop < low) | (loop > high)).any(axis=1)
@@ -116,7 +104,7 @@ def _check_loop(surface: Surface, number: int, loop: np.ndarray) -> None:
         raise SurfaceError(
             f"loop {number} of {surface.name!r} leaves the (u, v) domain at ({u:g}, {v:g})"
         )
-    if abs(_signed_area(loop)) <= 1e-14 * np.prod(high - low):
+    if abs(ring_area(loop)) <= 1e-14 * np.prod(high - low):
         raise SurfaceError(f"loop {number} of {surface.name!r} encloses no area")
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.geometry.inside_loops import is_inside
-from surfmesh.geometry.small_matrices import product
+from surfmesh.geometry.rings import ring_area
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, boundary_of
 
 
@@ -33,7 +33,7 @@ def in_parts(job: FaceJob, mesh: Callable[[FaceJob], FaceMesh]) -> FaceMesh:
 def _groups(job: FaceJob) -> list[list[int]]:
     """Numbers of the loops of each piece: an outer loop and its holes."""
     rings = job.rings
-    areas = [_area(ring) for ring in rings]
+    areas = [ring_area(ring) for ring in rings]
     outer = sorted((k for k, area in enumerate(areas) if area > 0.0), key=lambda k: areas[k])
     if len(outer) < 2:
         return [[*range(len(rings))]]
@@ -44,11 +44,6 @@ def _groups(job: FaceJob) -> list[list[int]]:
             owner = next((o for o in outer if is_inside([rings[o]], place)[0]), outer[-1])
             groups[owner].append(k)
     return list(groups.values())
-
-
-def _area(ring: np.ndarray) -> float:
-    u, v = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(product(u, np.roll(v, -1)) - product(v, np.roll(u, -1)))
 
 
 def _together(parts: list[FaceMesh], slots: list[np.ndarray]) -> FaceMesh:
