@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/mesh_edges.hpp"
 #include "quality/triangle_fans.hpp"
@@ -21,32 +22,26 @@ std::span<const Vertex> all_numbers(const VertexTriples& triangles) {
     return {triangles.data(), triangles.size()};
 }
 
+/// Edges (k, 2) between so many vertices.
+std::span<const EdgeTable::Ends> ends_of(const SidePairs& edges, std::size_t vertices) {
+    require_indices(std::span(edges.data(), edges.size()), vertices, "edges");
+    return {reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
+}
+
 void bind_lengths(nb::module_& m) {
     m.def(
         "edge_lengths",
         [](const Points3& points, const SidePairs& edges) {
-            require_indices(std::span(edges.data(), edges.size()), points.shape(0), "edges");
-            const std::span<const EdgeTable::Ends> ends{
-                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
-            Array<double> lengths;
-            {
-                const nb::gil_scoped_release released;
-                lengths = edge_lengths(rows<Point3>(points), ends);
-            }
+            const auto ends = ends_of(edges, points.shape(0));
+            const auto lengths = released([&] { return edge_lengths(rows<Point3>(points), ends); });
             return view(lengths);
         },
         nb::arg("points"), nb::arg("edges"), "Length (k,) of edges (k, 2) between points (n, 3).");
     m.def(
         "edge_sizes",
         [](const SidePairs& edges, const Vector<double>& sizes) {
-            require_indices(std::span(edges.data(), edges.size()), sizes.shape(0), "edges");
-            const std::span<const EdgeTable::Ends> ends{
-                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
-            EdgeSizes found;
-            {
-                const nb::gil_scoped_release released;
-                found = edge_sizes(ends, rows<double>(sizes));
-            }
+            const auto ends = ends_of(edges, sizes.shape(0));
+            const auto found = released([&] { return edge_sizes(ends, rows<double>(sizes)); });
             return std::tuple(view(found.mean), view(found.apart));
         },
         nb::arg("edges"), nb::arg("sizes"),
@@ -56,15 +51,10 @@ void bind_lengths(nb::module_& m) {
     m.def(
         "edge_extremes",
         [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
-            require_indices(std::span(edges.data(), edges.size()), vertices, "edges");
+            const auto ends = ends_of(edges, vertices);
             require_rows(lengths.shape(0), edges.shape(0), "lengths");
-            const std::span<const EdgeTable::Ends> ends{
-                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
-            EdgeExtremes found;
-            {
-                const nb::gil_scoped_release released;
-                found = edge_extremes(ends, rows<double>(lengths), vertices);
-            }
+            const auto found =
+                released([&] { return edge_extremes(ends, rows<double>(lengths), vertices); });
             return std::tuple(view(found.longest), view(found.shortest));
         },
         nb::arg("edges"), nb::arg("lengths"), nb::arg("vertices"),
@@ -74,11 +64,8 @@ void bind_lengths(nb::module_& m) {
         "edges_of_faces",
         [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {
             const auto sides = half_edge_pairs(half_edges, faces.shape(0));
-            Array<EdgeSides> seen;
-            {
-                const nb::gil_scoped_release released;
-                seen = edges_of_faces(sides, rows<std::int32_t>(faces));
-            }
+            const auto seen =
+                released([&] { return edges_of_faces(sides, rows<std::int32_t>(faces)); });
             return view(seen);
         },
         nb::arg("half_edges"), nb::arg("faces"),

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "quality/corner_places.hpp"
 #include "quality/face_figures.hpp"
 #include "quality/histogram.hpp"
@@ -25,12 +26,10 @@ void bind_face_triangles(nb::module_& m) {
             require_indices(rows<std::int32_t>(faces), count, "faces");
             require_rows(area.shape(0), faces.shape(0), "area");
             require_rows(alpha.shape(0), faces.shape(0), "alpha");
-            FaceShapes found;
-            {
-                const nb::gil_scoped_release released;
-                found = face_shapes(rows<std::int32_t>(faces), rows<double>(area),
-                                    rows<double>(alpha), count);
-            }
+            const auto found = released([&] {
+                return face_shapes(rows<std::int32_t>(faces), rows<double>(area),
+                                   rows<double>(alpha), count);
+            });
             return std::tuple(view(found.triangles), view(found.area), view(found.alpha_sum),
                               view(found.alpha_min));
         },
@@ -47,13 +46,11 @@ void bind_face_triangles(nb::module_& m) {
             for (const std::size_t found :
                  {distance.shape(0), mean_square.shape(0), area.shape(0), marked.shape(0)})
                 require_rows(found, faces.shape(0), "a figure of the triangles");
-            FaceDistances found;
-            {
-                const nb::gil_scoped_release released;
-                found = face_distances(rows<std::int32_t>(faces), rows<double>(distance),
-                                       rows<double>(mean_square), rows<double>(area),
-                                       rows<std::uint8_t>(marked), count);
-            }
+            const auto found = released([&] {
+                return face_distances(rows<std::int32_t>(faces), rows<double>(distance),
+                                      rows<double>(mean_square), rows<double>(area),
+                                      rows<std::uint8_t>(marked), count);
+            });
             return std::tuple(view(found.largest), view(found.worst), view(found.square),
                               view(found.marked));
         },
@@ -69,12 +66,10 @@ void bind_face_triangles(nb::module_& m) {
             require_indices(rows<std::int32_t>(faces), count, "faces");
             require_rows(degrees.shape(0), faces.shape(0), "degrees");
             if (most.shape(0) != 1) require_rows(most.shape(0), count, "most");
-            FaceAngles found;
-            {
-                const nb::gil_scoped_release released;
-                found = face_angles(rows<std::int32_t>(faces), rows<double>(degrees),
-                                    rows<double>(most), count);
-            }
+            const auto found = released([&] {
+                return face_angles(rows<std::int32_t>(faces), rows<double>(degrees),
+                                   rows<double>(most), count);
+            });
             return std::tuple(view(found.largest), view(found.above), view(found.number));
         },
         nb::arg("faces"), nb::arg("degrees"), nb::arg("most"), nb::arg("count"),

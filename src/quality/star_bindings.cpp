@@ -33,6 +33,18 @@ auto number_of_each(std::size_t count, const Work& work) {
     return view(found);
 }
 
+using VertexRows = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+auto distances_from_stars(const HeldStars& stars, const Points3& places,
+                          const VertexRows& vertices) {
+    require_rows(vertices.shape(0), places.shape(0), "vertices");
+    require_indices(std::span(vertices.data(), vertices.size()), stars.vertices(), "vertices");
+    const std::size_t count = vertices.shape(1);
+    return number_of_each(places.shape(0), [&](std::size_t i) {
+        return stars.from_stars(rows<Point3>(places)[i], {vertices.data() + i * count, count});
+    });
+}
+
 }  // namespace
 
 void bind_stars(nb::module_& m) {
@@ -81,22 +93,8 @@ void bind_stars(nb::module_& m) {
             },
             nb::arg("place"), nb::arg("distance"),
             "The less of the distance known of a place and that from all triangles.")
-        .def(
-            "distances_from_stars",
-            [](const HeldStars& stars, const Points3& places,
-               const nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>&
-                   vertices) {
-                require_rows(vertices.shape(0), places.shape(0), "vertices");
-                require_indices(std::span(vertices.data(), vertices.size()), stars.vertices(),
-                                "vertices");
-                const std::size_t count = vertices.shape(1);
-                return number_of_each(places.shape(0), [&](std::size_t i) {
-                    return stars.from_stars(rows<Point3>(places)[i],
-                                            {vertices.data() + i * count, count});
-                });
-            },
-            nb::arg("places"), nb::arg("vertices"),
-            "Distance (k,) of places (k, 3) from all triangles at vertices (k, j).");
+        .def("distances_from_stars", &distances_from_stars, nb::arg("places"), nb::arg("vertices"),
+             "Distance (k,) of places (k, 3) from all triangles at vertices (k, j).");
 }
 
 }  // namespace surfmesh::binding

@@ -113,6 +113,40 @@ std::size_t look_along_curves(HeldSearch& held, const nb::list& curves,
     });
 }
 
+void look_over(HeldSearch& held, const Vector<std::uint8_t>& left_out,
+               const Matrix<double, 3>& weights) {
+    require_rows(left_out.shape(0), held.triangles(), "left_out");
+    if (weights.shape(0) == 0) throw nb::value_error("weights is empty");
+    held.released([&](SurfaceSearch& search) {
+        search.look_over(rows<std::uint8_t>(left_out), rows<Weights>(weights));
+        return true;
+    });
+}
+
+void look_along_rims(HeldSearch& held, const Pairs& half_edges, const Vector<double>& fractions) {
+    const std::span<const EdgeSides> sides = sides_of(half_edges, held.triangles());
+    held.released([&](SurfaceSearch& search) {
+        search.look_along_rims(sides, rows<double>(fractions));
+        return true;
+    });
+}
+
+void look_closely(HeldSearch& held, const Vector<std::uint8_t>& left_out,
+                  const Matrix<double, 3>& weights, std::size_t count) {
+    require_rows(left_out.shape(0), held.triangles(), "left_out");
+    held.released([&](SurfaceSearch& search) {
+        search.look_closely(rows<std::uint8_t>(left_out), rows<Weights>(weights), count);
+        return true;
+    });
+}
+
+auto farthest(HeldSearch& held) {
+    const FarthestPoint found =
+        held.released([](SurfaceSearch& search) { return search.farthest(); });
+    const auto& [distance, p, q, triangle, at_rim] = found;
+    return std::tuple(distance, std::array{p.x, p.y, p.z}, std::array{q.x, q.y}, triangle, at_rim);
+}
+
 }  // namespace
 
 void bind_surface_search(nb::module_& m) {
@@ -126,31 +160,11 @@ void bind_surface_search(nb::module_& m) {
              "surfaces; largest: the largest one; chord (f,) of each face, or (1,) of all, up to "
              "which it does not matter which triangle is the nearest; is_off_face: does (u, v) "
              "over a triangle lie beyond an edge of its face?")
-        .def(
-            "look_over",
-            [](HeldSearch& held, const Vector<std::uint8_t>& left_out,
-               const Matrix<double, 3>& weights) {
-                require_rows(left_out.shape(0), held.triangles(), "left_out");
-                if (weights.shape(0) == 0) throw nb::value_error("weights is empty");
-                held.released([&](SurfaceSearch& search) {
-                    search.look_over(rows<std::uint8_t>(left_out), rows<Weights>(weights));
-                    return true;
-                });
-            },
-            nb::arg("left_out"), nb::arg("weights"),
-            "Look at barycentric weights (w, 3) over the triangles of which left_out (m,) is 0.")
-        .def(
-            "look_along_rims",
-            [](HeldSearch& held, const Pairs& half_edges, const Vector<double>& fractions) {
-                const std::span<const EdgeSides> sides = sides_of(half_edges, held.triangles());
-                held.released([&](SurfaceSearch& search) {
-                    search.look_along_rims(sides, rows<double>(fractions));
-                    return true;
-                });
-            },
-            nb::arg("half_edges"), nb::arg("fractions"),
-            "Look along the edges of one triangle only, by half_edges (ne, 2) or -1, at fractions "
-            "(j,) of their length.")
+        .def("look_over", &look_over, nb::arg("left_out"), nb::arg("weights"),
+             "Look at barycentric weights (w, 3) over the triangles of which left_out (m,) is 0.")
+        .def("look_along_rims", &look_along_rims, nb::arg("half_edges"), nb::arg("fractions"),
+             "Look along the edges of one triangle only, by half_edges (ne, 2) or -1, at fractions "
+             "(j,) of their length.")
         .def("look_along_curves", &look_along_curves, nb::arg("curves"), nb::arg("limits"),
              nb::arg("edges"), nb::arg("ends"), nb::arg("segments"), nb::arg("edge_rows"),
              nb::arg("half_edges"), nb::arg("fractions"), nb::arg("beside_middle"),
@@ -162,30 +176,13 @@ void bind_surface_search(nb::module_& m) {
              "no side of a triangle. The middle of an arc settles it where it is as far from the "
              "triangle as ``beside_middle`` of its height over the segment.")
         .def(
-            "look_closely",
-            [](HeldSearch& held, const Vector<std::uint8_t>& left_out,
-               const Matrix<double, 3>& weights, std::size_t count) {
-                require_rows(left_out.shape(0), held.triangles(), "left_out");
-                held.released([&](SurfaceSearch& search) {
-                    search.look_closely(rows<std::uint8_t>(left_out), rows<Weights>(weights),
-                                        count);
-                    return true;
-                });
-            },
-            nb::arg("left_out"), nb::arg("weights"), nb::arg("count"),
+            "look_closely", &look_closely, nb::arg("left_out"), nb::arg("weights"),
+            nb::arg("count"),
             "Look at weights (w, 3) over the ``count`` triangles that are farthest, one way or the "
             "other, but those of which left_out (m,) is not 0.")
-        .def(
-            "farthest",
-            [](HeldSearch& held) {
-                const FarthestPoint found =
-                    held.released([](SurfaceSearch& search) { return search.farthest(); });
-                const auto& [distance, p, q, triangle, at_rim] = found;
-                return std::tuple(distance, std::array{p.x, p.y, p.z}, std::array{q.x, q.y},
-                                  triangle, at_rim);
-            },
-            "The farthest point: its distance, place, (u, v), the triangle that it is over, and "
-            "whether it was seen along a free rim.")
+        .def("farthest", &farthest,
+             "The farthest point: its distance, place, (u, v), the triangle that it is over, and "
+             "whether it was seen along a free rim.")
         .def(
             "largest_over_each",
             [](HeldSearch& held) { return view(held.search().largest_over_each()); },
