@@ -8,6 +8,7 @@
 #include <string>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "edges/checked_arguments.hpp"
 #include "edges/curve_pieces.hpp"
 #include "edges/edge_courses.hpp"
@@ -74,11 +75,7 @@ void bind_pieces(nb::module_& m) {
             [](const CurvePieces& pieces, const Indices& which, const Indices& first,
                const Numbers& fraction) {
                 const PiecePlaces places = checked_places(pieces, which, first, fraction);
-                Array<Point3> found;
-                {
-                    const nb::gil_scoped_release released;
-                    found = points_on(pieces, places);
-                }
+                const auto found = released([&] { return points_on(pieces, places); });
                 return view(found);
             },
             nb::arg("which"), nb::arg("first"), nb::arg("fraction"),
@@ -107,11 +104,8 @@ void bind_courses(nb::module_& m) {
            const Numbers& fraction, const Flags& straight) {
             const PiecePlaces places = checked_places(pieces, which, first, fraction);
             require_rows(straight.shape(0), which.shape(0), "straight");
-            EdgeCourses found;
-            {
-                const nb::gil_scoped_release released;
-                found = edge_courses(pieces, places, rows<std::uint8_t>(straight));
-            }
+            const auto found = released(
+                [&] { return edge_courses(pieces, places, rows<std::uint8_t>(straight)); });
             return std::tuple(view(found.points), view(found.tangents), view(found.curvature),
                               view(found.total_curvature));
         },
@@ -127,11 +121,7 @@ void bind_courses(nb::module_& m) {
            const Numbers& fraction, const nb::list& surfaces) {
             const PiecePlaces places = checked_places(pieces, which, first, fraction);
             const SharedSurfaces shared = surfaces_of(surfaces, which.shape(0));
-            SurfaceCurvatures found;
-            {
-                const nb::gil_scoped_release released;
-                found = curvatures_along(pieces, places, shared);
-            }
+            const auto found = released([&] { return curvatures_along(pieces, places, shared); });
             return arrays_of(found);
         },
         nb::arg("pieces"), nb::arg("which"), nb::arg("first"), nb::arg("fraction"),
@@ -143,11 +133,8 @@ void bind_courses(nb::module_& m) {
         [](const Points2& uv, const Indices& first, const nb::list& surfaces) {
             require_offsets(first, surfaces.size(), uv.shape(0), "first");
             const SharedSurfaces shared = surfaces_of(surfaces, surfaces.size());
-            SurfaceCurvatures found;
-            {
-                const nb::gil_scoped_release released;
-                found = curvatures_at(rows<Point2>(uv), rows<std::int64_t>(first), shared);
-            }
+            const auto found = released(
+                [&] { return curvatures_at(rows<Point2>(uv), rows<std::int64_t>(first), shared); });
             return arrays_of(found);
         },
         nb::arg("uv"), nb::arg("first"), nb::arg("surfaces"),
@@ -162,11 +149,8 @@ void bind_gradation(nb::module_& m) {
            double least_step) {
             const EdgeNetwork edges = checked_network(points, first, ends, vertices);
             require_rows(sizes.shape(0), points.shape(0), "sizes");
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found = graded_along_edges(edges, rows<double>(sizes), slope, least_step);
-            }
+            const auto found = released(
+                [&] { return graded_along_edges(edges, rows<double>(sizes), slope, least_step); });
             return view(found);
         },
         nb::arg("points"), nb::arg("sizes"), nb::arg("first"), nb::arg("ends"), nb::arg("vertices"),
@@ -187,14 +171,12 @@ void bind_gradation(nb::module_& m) {
             require_offsets(first_of_face, first_of_face.shape(0) - 1, edges_of_face.shape(0),
                             "first_of_face");
             require_indices(rows<std::int64_t>(edges_of_face), ends.shape(0), "edges_of_face");
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found = graded_over_faces(
+            const auto found = released([&] {
+                return graded_over_faces(
                     edges, {rows<std::int64_t>(first_of_face), rows<std::int64_t>(edges_of_face)},
                     rows<double>(sizes), slope, least_step,
                     before ? rows<double>(*before) : std::span<const double>());
-            }
+            });
             return view(found);
         },
         nb::arg("points"), nb::arg("sizes"), nb::arg("first"), nb::arg("ends"), nb::arg("vertices"),
@@ -230,15 +212,13 @@ void bind_cutting(nb::module_& m) {
             if (!std::all_of(fewest.data(), fewest.data() + fewest.size(),
                              [](std::int64_t pieces) { return pieces > 0; }))
                 throw nb::value_error("an edge has one piece at least");
-            CutEdges found;
-            {
-                const nb::gil_scoped_release released;
-                found = cut_to_metric_length(curves, edges, rows<double>(fraction),
-                                             rows<double>(sizes), rows<Point3>(corners),
-                                             {rows<std::int64_t>(which), rows<std::int64_t>(fewest),
-                                              rows<std::int64_t>(first_given), rows<double>(given),
-                                              rows<double>(chord), rows<double>(shortest), most});
-            }
+            const auto found = released([&] {
+                return cut_to_metric_length(curves, edges, rows<double>(fraction),
+                                            rows<double>(sizes), rows<Point3>(corners),
+                                            {rows<std::int64_t>(which), rows<std::int64_t>(fewest),
+                                             rows<std::int64_t>(first_given), rows<double>(given),
+                                             rows<double>(chord), rows<double>(shortest), most});
+            });
             return std::tuple(view(found.first), view(found.t), view(found.points),
                               view(found.sizes), found.refused, found.pieces);
         },

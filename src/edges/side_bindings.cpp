@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "edges/checked_arguments.hpp"
 #include "edges/edge_mates.hpp"
 #include "edges/mated_cuts.hpp"
@@ -44,15 +45,13 @@ auto found_narrow_faces(const CurvePieces& curves, const Points3& points, const 
     require_rows(width.shape(0), faces.shape(0), "width");
     require_rows(pcurves.size(), edge.shape(0), "pcurves");
     const SharedSurfaces shared = surfaces_of(surfaces, faces.shape(0));
-    std::vector<NarrowFace> found;
-    {
-        const nb::gil_scoped_release released;
-        found = narrow_faces(edges,
-                             {rows<std::int64_t>(first_of_face), rows<std::int64_t>(first_of_loop),
-                              rows<std::int64_t>(edge), rows<std::uint8_t>(is_reversed),
-                              rows<double>(length), rows<double>(area), diagonal},
-                             {rows<std::int64_t>(faces), rows<double>(width), pcurves, shared});
-    }
+    const auto found = released([&] {
+        return narrow_faces(edges,
+                            {rows<std::int64_t>(first_of_face), rows<std::int64_t>(first_of_loop),
+                             rows<std::int64_t>(edge), rows<std::uint8_t>(is_reversed),
+                             rows<double>(length), rows<double>(area), diagonal},
+                            {rows<std::int64_t>(faces), rows<double>(width), pcurves, shared});
+    });
     Array<std::int64_t> runs;
     Array<double> widest;
     for (const NarrowFace& face : found) {
@@ -142,16 +141,14 @@ auto cuts(const MateRuns& runs, const CurvePieces& curves, const Points3& points
         require_rows(row->shape(0), curves.size(), "a row over edges");
     require_rows(fewest.shape(0), curves.size(), "fewest");
     require_rows(sizes.shape(0), points.shape(0), "sizes");
-    MatedCuts found;
-    {
-        const nb::gil_scoped_release released;
-        found = mated_cuts(
+    const auto found = released([&] {
+        return mated_cuts(
             samples, runs,
             {rows<SegmentEnds>(ends), rows<SegmentEnds>(vertices), rows<Point3>(corners),
              rows<double>(length), rows<double>(total_curvature), rows<std::int64_t>(fewest),
              rows<double>(chord), rows<double>(shortest), diagonal, most},
             rows<double>(sizes));
-    }
+    });
     return std::tuple(view(found.edge), view(found.first), view(found.t));
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "faces/boundary_builder.hpp"
 #include "faces/loop_figures.hpp"
 #include "faces/shared_sides.hpp"
@@ -237,11 +238,8 @@ void bind_shared_sides(nb::module_& m) {
         "triangles_of_shared",
         [checked](const Corners& triangles, const Bytes& shared) {
             const auto corners = checked(triangles, shared);
-            Array<std::int64_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = triangles_of_shared(corners, rows<std::uint8_t>(shared));
-            }
+            const auto found =
+                released([&] { return triangles_of_shared(corners, rows<std::uint8_t>(shared)); });
             return view(found);
         },
         nb::arg("triangles"), nb::arg("shared"),

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "intersection/strip_integrals.hpp"
 #include "intersection/tracing.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -49,11 +50,9 @@ auto pulled_onto_both(const Surface& a, const Surface& b, const Points2& uv_a, c
         limits.widths = rows<FourNumbers>(*widths);
     }
     MeetingSurfaces surfaces{SurfaceReader(a), SurfaceReader(b)};
-    CommonPoints found;
-    {
-        const nb::gil_scoped_release released;
-        found = pull_onto_both(surfaces, rows<Point2>(uv_a), rows<Point2>(uv_b), limits, steps);
-    }
+    const auto found = released([&] {
+        return pull_onto_both(surfaces, rows<Point2>(uv_a), rows<Point2>(uv_b), limits, steps);
+    });
     finish(a, b, surfaces);
     return std::tuple(view(found.uv_a), view(found.uv_b), view(found.point), view(found.gap));
 }
@@ -87,11 +86,7 @@ auto cells_bounded(const Surface& surface, const Points2& lo, const Points2& hi)
     for (std::size_t i = 0; i < lo.shape(0); ++i)
         cells.push_back({rows<Point2>(lo)[i], rows<Point2>(hi)[i]});
     SurfaceReader reader(surface);
-    CellBounds bounds;
-    {
-        const nb::gil_scoped_release released;
-        bounds = bound_cells(reader, {cells.data(), cells.size()});
-    }
+    const auto bounds = released([&] { return bound_cells(reader, {cells.data(), cells.size()}); });
     raise_failure(surface, reader.status());
     return arrays_of(bounds);
 }
@@ -188,13 +183,11 @@ auto traced(const Surface& a, const Surface& b, const Points2& uv_a, const Point
         ends.push_back({rows<Point2>(uv_a)[i], rows<Point2>(uv_b)[i], rows<Point3>(point)[i],
                         rows<Point3>(way)[i], singular.data()[i] != 0});
     MeetingSurfaces surfaces{SurfaceReader(a), SurfaceReader(b)};
-    TracedBranch branch;
-    {
-        const nb::gil_scoped_release released;
-        branch = trace_branch(surfaces, ends[0], {as_rate(rate_a), as_rate(rate_b)},
-                              std::span<const TraceEnd>(ends.data() + 1, count - 1),
-                              {step, gap, closed});
-    }
+    const auto branch = released([&] {
+        return trace_branch(surfaces, ends[0], {as_rate(rate_a), as_rate(rate_b)},
+                            std::span<const TraceEnd>(ends.data() + 1, count - 1),
+                            {step, gap, closed});
+    });
     finish(a, b, surfaces);
     return std::tuple(branch.found, branch.end + 1, view(branch.points), view(branch.uv_a),
                       view(branch.uv_b));

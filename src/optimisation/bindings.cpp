@@ -2,6 +2,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "optimisation/dihedral.hpp"
 #include "optimisation/marked_triangles.hpp"
 #include "optimisation/smoothing.hpp"
@@ -167,11 +168,8 @@ void bind_triangles(nb::module_& m) {
                 if (first < 0 || second < NIL ||
                     static_cast<std::size_t>(std::max(first, second)) >= corners.size())
                     throw nb::value_error("half_edges has an index that is out of range");
-            Array<double> angles;
-            {
-                const nb::gil_scoped_release released;
-                angles = dihedral_angles(rows<Point3>(points), corners, edges);
-            }
+            const auto angles =
+                released([&] { return dihedral_angles(rows<Point3>(points), corners, edges); });
             return view(angles);
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"),

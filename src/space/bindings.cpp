@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "space/box_tree.hpp"
 #include "space/edge_distances.hpp"
 #include "space/edge_table.hpp"
@@ -99,13 +100,11 @@ void bind_triangle_pairs(nb::module_& m) {
            const std::optional<Vector<std::int32_t>>& patches) {
             require_corners(triangles, points.shape(0));
             if (patches) require_patches(*patches, triangles.shape(0));
-            Array<MeetingTriangles> found;
-            {
-                const nb::gil_scoped_release released;
-                found = meeting_triangles(
+            const auto found = released([&] {
+                return meeting_triangles(
                     rows<Point3>(points), rows<TriangleCorners>(triangles),
                     patches ? rows<std::int32_t>(*patches) : std::span<const std::int32_t>{}, most);
-            }
+            });
             return view(found);
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("most"), nb::arg("patches") = nb::none(),
@@ -118,11 +117,8 @@ void bind_edge_table(nb::module_& m) {
     m.def(
         "edge_table",
         [](const Triangles& triangles) {
-            EdgeTable table;
-            {
-                const nb::gil_scoped_release released;
-                table = edge_table(rows<TriangleCorners>(triangles));
-            }
+            const auto table =
+                released([&] { return edge_table(rows<TriangleCorners>(triangles)); });
             return std::tuple(view(table.edges), view(table.half_edges), view(table.uses));
         },
         nb::arg("triangles"),
@@ -135,11 +131,8 @@ void bind_edge_table(nb::module_& m) {
             const auto ends = rows<EdgeTable::Ends>(edges);
             if (!std::is_sorted(ends.begin(), ends.end()))
                 throw nb::value_error("edges are not in order");
-            Array<std::int64_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = edge_rows(ends, rows<EdgeTable::Ends>(pairs));
-            }
+            const auto found =
+                released([&] { return edge_rows(ends, rows<EdgeTable::Ends>(pairs)); });
             return view(found);
         },
         nb::arg("edges"), nb::arg("pairs"),
@@ -165,13 +158,11 @@ void bind_edge_gaps(nb::module_& m) {
             require_rows(ends.shape(0), first.shape(0) - 1, "ends");
             require_offsets(first_of_face, edges.shape(0), "first_of_face");
             require_indices(rows<std::int64_t>(edges), ends.shape(0), "edges");
-            EdgeGaps found;
-            {
-                const nb::gil_scoped_release released;
-                found = edge_gaps({rows<Point3>(points), rows<double>(reach),
-                                   rows<std::int64_t>(first), rows<SegmentEnds>(ends),
-                                   rows<std::int64_t>(edges), rows<std::int64_t>(first_of_face)});
-            }
+            const auto found = released([&] {
+                return edge_gaps({rows<Point3>(points), rows<double>(reach),
+                                  rows<std::int64_t>(first), rows<SegmentEnds>(ends),
+                                  rows<std::int64_t>(edges), rows<std::int64_t>(first_of_face)});
+            });
             return std::pair(view(found.gap), view(found.boxes));
         },
         nb::arg("points"), nb::arg("reach"), nb::arg("first"), nb::arg("ends"), nb::arg("edges"),
@@ -185,11 +176,8 @@ void bind_edge_gaps(nb::module_& m) {
         "edge_sags",
         [](const Points3& points, const Indices& first) {
             require_offsets(first, points.shape(0), "first");
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found = sags(rows<Point3>(points), rows<std::int64_t>(first));
-            }
+            const auto found =
+                released([&] { return sags(rows<Point3>(points), rows<std::int64_t>(first)); });
             return view(found);
         },
         nb::arg("points"), nb::arg("first"),
@@ -203,12 +191,10 @@ void bind_shapes(nb::module_& m) {
         [](const Points3& points, const Triangles& triangles, const Vector<std::int32_t>& chosen) {
             require_corners(triangles, points.shape(0));
             require_indices(rows<std::int32_t>(chosen), triangles.shape(0), "chosen");
-            TrianglePlanes found;
-            {
-                const nb::gil_scoped_release released;
-                found = triangle_planes(rows<Point3>(points), rows<TriangleCorners>(triangles),
-                                        rows<std::int32_t>(chosen));
-            }
+            const auto found = released([&] {
+                return triangle_planes(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                       rows<std::int32_t>(chosen));
+            });
             return std::tuple(view(found.normal), view(found.twice_area), view(found.longest));
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("chosen"),
@@ -218,11 +204,9 @@ void bind_shapes(nb::module_& m) {
         "triangle_shapes",
         [](const Points3& points, const Triangles& triangles) {
             require_corners(triangles, points.shape(0));
-            TriangleShapes shapes;
-            {
-                const nb::gil_scoped_release released;
-                shapes = triangle_shapes(rows<Point3>(points), rows<TriangleCorners>(triangles));
-            }
+            const auto shapes = released([&] {
+                return triangle_shapes(rows<Point3>(points), rows<TriangleCorners>(triangles));
+            });
             return std::tuple(view(shapes.area), view(shapes.alpha), view(shapes.radius_ratio),
                               view(shapes.least_angle), view(shapes.largest_angle));
         },
@@ -240,13 +224,11 @@ void bind_shapes(nb::module_& m) {
             require_rows(rule.shape(0), triangle.shape(0), "rule");
             require_indices(rows<std::int32_t>(rule), weights.shape(0), "rule");
             const std::size_t shape[] = {triangle.shape(0), values.shape(1)};
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found = interpolate({values.data(), values.size()}, shape[1],
-                                    rows<TriangleCorners>(corners), rows<std::int32_t>(triangle),
-                                    rows<std::int32_t>(rule), rows<Weights>(weights));
-            }
+            const auto found = released([&] {
+                return interpolate({values.data(), values.size()}, shape[1],
+                                   rows<TriangleCorners>(corners), rows<std::int32_t>(triangle),
+                                   rows<std::int32_t>(rule), rows<Weights>(weights));
+            });
             return nb::ndarray<nb::numpy, double, nb::ndim<2>>(found.data(), 2, shape,
                                                                owner_of(found));
         },
@@ -303,11 +285,8 @@ void bind_distances(nb::module_& m) {
         "component_labels",
         [](std::size_t count, const Matrix<std::int32_t, 2>& pairs) {
             require_indices(std::span(pairs.data(), pairs.size()), count, "pairs");
-            Array<std::int32_t> labels;
-            {
-                const nb::gil_scoped_release released;
-                labels = component_labels(count, rows<ThingPair>(pairs));
-            }
+            const auto labels =
+                released([&] { return component_labels(count, rows<ThingPair>(pairs)); });
             return view(labels);
         },
         nb::arg("count"), nb::arg("pairs"),

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "surfaces/callback_surface.hpp"
 #include "surfaces/surface.hpp"
 
@@ -32,11 +33,7 @@ Shaped shaped(const Array<Point3>& values, std::size_t rows, std::size_t columns
 DerivativeArrays evaluate(const Surface& surface, const Points2& uv, int order) {
     if (order < 0 || order > 3) throw nb::value_error("the order is 0, 1, 2 or 3");
     SurfaceValues values;
-    SurfaceStatus status;
-    {
-        const nb::gil_scoped_release released;
-        status = values.evaluate(surface, rows<Point2>(uv), order);
-    }
+    const auto status = released([&] { return values.evaluate(surface, rows<Point2>(uv), order); });
     raise_failure(surface, status);
     if (status == SurfaceStatus::UNKNOWN)
         throw nb::value_error("the surface has no derivatives of so high an order");
@@ -51,12 +48,10 @@ std::optional<std::pair<BoundArrays, BoundArrays>> derivative_bounds(const Surfa
     Array<ParameterBox> cells(count);
     for (std::size_t i = 0; i < count; ++i) cells[i] = {rows<Point2>(lo)[i], rows<Point2>(hi)[i]};
     Array<Point3> lower(BOUNDED_DERIVATIVES * count), upper(BOUNDED_DERIVATIVES * count);
-    SurfaceStatus status;
-    {
-        const nb::gil_scoped_release released;
-        status = surface.derivative_bounds({cells.data(), count}, {lower.data(), lower.size()},
-                                           {upper.data(), upper.size()});
-    }
+    const auto status = released([&] {
+        return surface.derivative_bounds({cells.data(), count}, {lower.data(), lower.size()},
+                                         {upper.data(), upper.size()});
+    });
     raise_failure(surface, status);
     if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
     return std::pair(shaped<BoundArrays>(lower, count, BOUNDED_DERIVATIVES),
@@ -71,12 +66,10 @@ std::optional<DerivativeArrays> derivative_magnitudes(const Surface& surface, co
     Array<ParameterBox> cells(count);
     for (std::size_t i = 0; i < count; ++i) cells[i] = {rows<Point2>(lo)[i], rows<Point2>(hi)[i]};
     Array<Point3> found(derivative_count(order) * count);
-    SurfaceStatus status;
-    {
-        const nb::gil_scoped_release released;
-        status = surface.derivative_magnitudes({cells.data(), count}, order,
-                                               {found.data(), found.size()});
-    }
+    const auto status = released([&] {
+        return surface.derivative_magnitudes({cells.data(), count}, order,
+                                             {found.data(), found.size()});
+    });
     raise_failure(surface, status);
     if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
     return shaped<DerivativeArrays>(found, count, derivative_count(order));

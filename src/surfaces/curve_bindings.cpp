@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "binding/released.hpp"
 #include "surfaces/elementary_curves.hpp"
 #include "surfaces/offset_curve.hpp"
 #include "surfaces/spline_curve.hpp"
@@ -131,11 +132,9 @@ through_points(const Numbers& places, const Table& values, std::size_t degree) {
     const auto rises = [](double a, double b) { return !(a < b); };
     if (std::adjacent_find(at.begin(), at.end(), rises) != at.end())
         throw nb::value_error("the places of a spline's points do not rise");
-    KnotsAndControl made;
-    {
-        const nb::gil_scoped_release released;
-        made = spline_through_points(at, {values.data(), values.size()}, values.shape(1), degree);
-    }
+    const auto made = released([&] {
+        return spline_through_points(at, {values.data(), values.size()}, values.shape(1), degree);
+    });
     const std::size_t shape[] = {at.size(), values.shape(1)};
     return {view(made.knots), {made.control.data(), 2, shape, owner_of(made.control)}};
 }

@@ -2,6 +2,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include "binding/arrays.hpp"
+#include "binding/released.hpp"
 #include "surfaces/callback_surface.hpp"
 #include "surfaces/closest_point.hpp"
 #include "surfaces/coincident_sides.hpp"
@@ -23,11 +24,7 @@ void bind_coincident_sides(nb::module_& m) {
         "coincident_sides",
         [](const Surface& surface, const std::array<double, 4>& rounding) {
             SurfaceReader reader(surface);
-            CoincidentSides found;
-            {
-                const nb::gil_scoped_release released;
-                found = coincident_sides(reader, rounding);
-            }
+            const auto found = released([&] { return coincident_sides(reader, rounding); });
             raise_failure(surface, reader.status());
             return std::tuple(found.collapsed, found.partner, found.reversed);
         },
@@ -46,12 +43,10 @@ void bind_closest_points(nb::module_& m) {
             require_rows(uv_guess.shape(0), points.shape(0), "uv_guess");
             if (steps < 1) throw nb::value_error("steps is at least 1");
             SurfaceReader reader(surface);
-            ClosestPoints found;
-            {
-                const nb::gil_scoped_release released;
-                found = closest_points(reader, rows<Point3>(points), rows<Point2>(uv_guess), steps,
-                                       margin);
-            }
+            const auto found = released([&] {
+                return closest_points(reader, rows<Point3>(points), rows<Point2>(uv_guess), steps,
+                                      margin);
+            });
             raise_failure(surface, reader.status());
             return arrays_of(found);
         },
@@ -71,14 +66,12 @@ void bind_closest_points(nb::module_& m) {
             require_indices(rows<std::int64_t>(triangle), corners.shape(0), "triangle");
             if (steps < 1) throw nb::value_error("steps is at least 1");
             SurfaceReader reader(surface);
-            ClosestPoints found;
-            {
-                const nb::gil_scoped_release released;
-                found = closest_points_in_triangles(
+            const auto found = released([&] {
+                return closest_points_in_triangles(
                     reader, rows<Point3>(points), rows<Point2>(uv),
                     {reinterpret_cast<const ParameterTriangle*>(corners.data()), corners.shape(0)},
                     rows<std::int64_t>(triangle), limit, steps);
-            }
+            });
             raise_failure(surface, reader.status());
             return std::tuple(view(found.uv), view(found.distance));
         },
@@ -99,14 +92,12 @@ void bind_surface_searches(nb::module_& m) {
         "bends_sharply",
         [](const Surface& surface, const ParameterTriangles& triangles, double radius) {
             SurfaceReader reader(surface);
-            Array<std::uint8_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = bends_sharply(reader,
-                                      {reinterpret_cast<const ParameterTriangle*>(triangles.data()),
-                                       triangles.shape(0)},
-                                      radius);
-            }
+            const auto found = released([&] {
+                return bends_sharply(reader,
+                                     {reinterpret_cast<const ParameterTriangle*>(triangles.data()),
+                                      triangles.shape(0)},
+                                     radius);
+            });
             raise_failure(surface, reader.status());
             return view(found);
         },

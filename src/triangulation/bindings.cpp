@@ -3,6 +3,7 @@
 
 #include "binding/arrays.hpp"
 #include "binding/loop_arguments.hpp"
+#include "binding/released.hpp"
 #include "triangulation/compaction.hpp"
 #include "triangulation/exact_sums.hpp"
 #include "triangulation/inside_loops.hpp"
@@ -37,11 +38,7 @@ void bind_predicates(nb::module_& m) {
         "inside_loops",
         [](const Points2& corners, const Vector<std::int64_t>& first, const Points2& points) {
             const PlaneLoops loops = plane_loops(corners, first);
-            Array<std::uint8_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = inside_loops(loops, rows<Point2>(points));
-            }
+            const auto found = released([&] { return inside_loops(loops, rows<Point2>(points)); });
             return view(found);
         },
         nb::arg("corners"), nb::arg("first"), nb::arg("points"),
@@ -69,12 +66,10 @@ void bind_segments(nb::module_& m) {
             require_indices(std::span(segments.data(), segments.size()), points.shape(0),
                             "segments");
             require_indices(std::span(pairs.data(), pairs.size()), segments.shape(0), "pairs");
-            Meetings found;
-            {
-                const nb::gil_scoped_release released;
-                found = find_meetings(rows<Point2>(points), rows<SegmentEnds>(segments),
-                                      rows<SegmentPair>(pairs), tolerance);
-            }
+            const auto found = released([&] {
+                return find_meetings(rows<Point2>(points), rows<SegmentEnds>(segments),
+                                     rows<SegmentPair>(pairs), tolerance);
+            });
             return std::pair(view(found.flags), view(found.places));
         },
         nb::arg("points"), nb::arg("segments"), nb::arg("pairs"), nb::arg("tolerance"),
@@ -86,12 +81,10 @@ void bind_segments(nb::module_& m) {
         [](const Points3& points, const Matrix<double, 6>& segments, const Matrix<double, 6>& boxes,
            const Matrix<double, 6>& groups) {
             if (segments.shape(0) == 0) throw nb::value_error("there are no segments");
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found = distances(rows<Point3>(points), rows<Segment3>(segments), rows<Box3>(boxes),
-                                  rows<Box3>(groups));
-            }
+            const auto found = released([&] {
+                return distances(rows<Point3>(points), rows<Segment3>(segments), rows<Box3>(boxes),
+                                 rows<Box3>(groups));
+            });
             return view(found);
         },
         nb::arg("points"), nb::arg("segments"), nb::arg("boxes"), nb::arg("groups"),
