@@ -11,6 +11,7 @@ from surfmesh.view.legend import INK
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
 
+MARGIN, WIDE_MARGIN = 0.22, 0.36  # of the mesh: what is left around it for words and the bar
 BAR = 0.05  # of half the height: the mesh moves up, out of the colour bar's way
 TOP, LINE = 0.955, 0.032  # of the height: where the title stands, and the lines below it
 SMOOTHED = 1.6  # supersampling makes lines thinner by this
@@ -78,8 +79,8 @@ def _add_words(plotter: pyvista.Plotter, drawn: Drawing, unit: float) -> None:
 
 
 def _set_camera(plotter: pyvista.Plotter, drawn: Drawing) -> None:
-    flat = not np.ptp(drawn.mesh.points[:, 2])
-    margin = 0.32 if flat else 0.22  # what is seen from above fills the picture up to its corners
+    flat = not np.ptp(drawn.mesh.points[:, 2])  # from above it fills the picture to its corners
+    margin = WIDE_MARGIN if flat or drawn.colours.hues else MARGIN  # numbers stand below hues
     camera = framed(drawn.mesh.points, drawn.size[0] / drawn.size[1], margin=margin)
     centre = camera.centre - BAR * camera.half_height * camera.up
     eye = centre + camera.distance * camera.towards
