@@ -10,14 +10,12 @@ import single_thread  # noqa: F401  (before numpy)
 
 # isort: split
 import argparse
-import json
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import table_2
-from tables import heading, note, show
+from tables import concluded, heading, note, show
 from wanted import Wanted
 
 import surfmesh as sm
@@ -51,11 +49,7 @@ def main() -> int:
     missed = _table_1(QUICK_COUNTS if options.quick else COUNTS, results)
     missed += _table_2(options.growth, results)
     results["missed"] = missed
-    note("every wanted figure is met" if not missed else f"{missed} wanted figures are missed")
-    if options.json:
-        Path(options.json).write_text(json.dumps(results, indent=2) + "\n")
-        note(f"written to {options.json}")
-    return 1 if missed else 0
+    return concluded(missed, results, options.json)
 
 
 def _options() -> argparse.Namespace:

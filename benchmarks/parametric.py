@@ -12,11 +12,9 @@ import single_thread  # noqa: F401  (before numpy)
 
 # isort: split
 import argparse
-import json
 import os
 import platform
 import sys
-from pathlib import Path
 
 import field_accuracy
 import measures
@@ -24,7 +22,7 @@ import memory
 import numpy as np
 import peers
 import wanted
-from tables import heading, note, show
+from tables import concluded, heading, note, show
 from target_count import diagonal, sizing_for
 
 import surfmesh as sm
@@ -59,11 +57,7 @@ def main() -> int:
     if load is not None and load > BUSY:
         note(f"load average {load:.1f}: other work was running, the seconds are too long")
     note("")
-    note("every wanted figure is met" if not missed else f"{missed} wanted figures are missed")
-    if options.json:
-        Path(options.json).write_text(json.dumps(results, indent=2) + "\n")
-        note(f"written to {options.json}")
-    return 1 if missed else 0
+    return concluded(missed, results, options.json)
 
 
 def _options() -> argparse.Namespace:

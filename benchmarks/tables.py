@@ -1,6 +1,8 @@
 """Plain tables: a row for each figure, with what is wanted and whether it is met."""
 
+import json
 from collections.abc import Mapping
+from pathlib import Path
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
@@ -18,6 +20,15 @@ def heading(text: str) -> None:
 
 def note(text: str) -> None:
     console.print(f"  {escape(text)}")
+
+
+def concluded(missed: int, results: Mapping, path: str | None) -> int:
+    """The exit status of a run: 1 where figures are missed. ``results`` are kept as JSON."""
+    note("every wanted figure is met" if not missed else f"{missed} wanted figures are missed")
+    if path:
+        Path(path).write_text(json.dumps(results, indent=2) + "\n")
+        note(f"written to {path}")
+    return 1 if missed else 0
 
 
 def show(

@@ -1,11 +1,12 @@
 """One way to run property tests, the corpus of CAD files, and small meshes with known answers.
 
 Property tests try the same examples every time, so that main stays green;
-``SURFMESH_FUZZ=2000 pytest tests/kernels`` looks for new ones, that many a test.
+``SURFMESH_FUZZ=2000 pytest tests/core`` looks for new ones, that many a test.
 """
 
 import csv
 import os
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,15 @@ _fuzz = os.environ.get("SURFMESH_FUZZ")
 settings.register_profile("repeatable", derandomize=True, **_CALM)
 settings.register_profile("fuzz", max_examples=int(_fuzz or 1), **_CALM)
 settings.load_profile("fuzz" if _fuzz else "repeatable")
+
+
+@pytest.fixture(scope="module")
+def benchmarks_in_path():
+    """For tests of the scripts in ``benchmarks/``, which import each other by name."""
+    folder = str(Path(__file__).resolve().parents[1] / "benchmarks")
+    sys.path.insert(0, folder)
+    yield
+    sys.path.remove(folder)
 
 
 @pytest.fixture(scope="session")

@@ -1,26 +1,18 @@
 """The benchmark's own arithmetic: Euler numbers of B-reps, verdicts on solids, parts."""
 
 import json
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 pytest.importorskip("OCP")
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 
-import cadquery as cq  # noqa: E402
-from shapes import box_with_hole  # noqa: E402
+import cadquery as cq
+from shapes import box_with_hole
 
-import surfmesh as sm  # noqa: E402
+import surfmesh as sm
 
-
-@pytest.fixture(scope="module", autouse=True)
-def benchmarks_in_path():
-    sys.path.insert(0, str(BENCHMARKS))
-    yield
-    sys.path.remove(str(BENCHMARKS))
+pytestmark = pytest.mark.usefixtures("benchmarks_in_path")
 
 
 def _euler(shape) -> list[int]:

@@ -1,13 +1,11 @@
 """Foreign programs take our files: rows of benchmarks/clients.py, where they are installed."""
 
 import re
-import sys
-from pathlib import Path
 
 import pytest
 
 pytest.importorskip("OCP", reason="the parts are CAD models: OCP is not installed")
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
+pytestmark = pytest.mark.usefixtures("benchmarks_in_path")
 EXPECTED = {  # what the row says, and within which limits its numbers are
     "imprint": (r"(\d+) of 11 names, (\d+) of 19 pairs conformal, (\d+) others", (11, 19, 0), 0),
     "CalculiX shell": (
@@ -27,13 +25,6 @@ EXPECTED = {  # what the row says, and within which limits its numbers are
     "manifold3d": (r"NoError, volume ([\d.]+)", (16,), 1e-12),
     "capytaine": (r"balanced panels ([\d.]+) / ([\d.]+)", (0.831, 0.5), 0.005),
 }
-
-
-@pytest.fixture(scope="module", autouse=True)
-def benchmarks_in_path():
-    sys.path.insert(0, str(BENCHMARKS))
-    yield
-    sys.path.remove(str(BENCHMARKS))
 
 
 @pytest.mark.parametrize("name", EXPECTED)

@@ -1,8 +1,5 @@
 """The benchmark's own arithmetic: the search for the fewest triangles, distances, totals."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,14 +7,7 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
-
-
-@pytest.fixture(scope="module", autouse=True)
-def benchmarks_in_path():
-    sys.path.insert(0, str(BENCHMARKS))
-    yield
-    sys.path.remove(str(BENCHMARKS))
+pytestmark = pytest.mark.usefixtures("benchmarks_in_path")
 
 
 def _search(law, start, lowest=0.01, highest=100.0, attempts=40):

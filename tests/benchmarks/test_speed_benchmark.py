@@ -1,21 +1,13 @@
 """The speed benchmark's own arithmetic: its models, its size law, figures that are missed."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 pytest.importorskip("OCP")
 pytest.importorskip("psutil")
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
-
-
-@pytest.fixture(scope="module", autouse=True)
-def benchmarks_in_path():
-    sys.path.insert(0, str(BENCHMARKS))
-    yield
-    sys.path.remove(str(BENCHMARKS))
+pytestmark = pytest.mark.usefixtures("benchmarks_in_path")
 
 
 @pytest.mark.parametrize("faces", [11, 81])

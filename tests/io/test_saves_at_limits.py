@@ -18,15 +18,13 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io import FORMATS, leftovers, read
 from surfmesh.io.atomic import replacing
 
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 posix = pytest.mark.skipif(os.name == "nt", reason="Windows has other limits and permissions")
 
 
 @pytest.fixture
-def saves(monkeypatch):
+def saves(benchmarks_in_path):
     """benchmarks/saves.py, which tries and judges."""
     pytest.importorskip("resource")
-    monkeypatch.syspath_prepend(BENCHMARKS)
     import saves
 
     return saves

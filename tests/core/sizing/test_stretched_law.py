@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial import cKDTree
 
 import surfmesh as sm
-from surfmesh._core import allow_threads
 from surfmesh._core.sizing import limit_longer_sizes
 from surfmesh.geometry.differential.fundamental_forms import curvatures
 from surfmesh.geometry.differential.sides import find_sides
@@ -77,19 +76,6 @@ def test_limits_hold_in_their_directions_alone():
     held = SizeLaw.of(surface, SIZING, limits)(xy[rows])
     assert (sizes_along(held, way[rows]) <= sizes * (1.0 + 1e-9)).all()
     assert (held.size <= wide.size[rows]).all() and (held.long <= wide.long[rows]).all()
-
-
-def test_any_number_of_threads_gives_the_same():
-    surface = sm.load("two_peaks")
-    law = SizeLaw.of(surface, SIZING, rims=Rims(surface, find_sides(surface)))
-    xy = places(law, 70)
-    one = law(xy)
-    before = allow_threads(4)
-    try:
-        four = law(xy)
-    finally:
-        allow_threads(before)
-    assert all((a == b).all() for a, b in zip(one, four))
 
 
 def test_what_a_callers_function_raises_comes_through():

@@ -49,9 +49,11 @@ def test_limits_lower_sizes_and_not_what_was_asked_for():
     assert (held(xy).target_size == free(xy).size).all()
 
 
-def test_any_number_of_threads_gives_the_same():
+@pytest.mark.parametrize("anisotropy", [1.0, 8.0])
+def test_any_number_of_threads_gives_the_same(anisotropy):
     surface = sm.load("two_peaks")
-    law = SizeLaw.of(surface, sm.Sizing(chord=0.01), rims=Rims(surface, find_sides(surface)))
+    sizing = sm.Sizing(chord=0.01, anisotropy=anisotropy)
+    law = SizeLaw.of(surface, sizing, rims=Rims(surface, find_sides(surface)))
     xy = places(law)
     one = law(xy)
     before = allow_threads(4)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from naive.metric import metric_root_3d
+from naive.searched_deviation import searched_deviation
 
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder
 from surfmesh.geometry.differential.sides import find_sides
@@ -21,21 +22,6 @@ from surfmesh.sizing.rules.curvature_size import (
 from surfmesh.sizing.rules.direction_size import size_along
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 from surfmesh.sizing.rules.size_rules import SizeRules
-
-
-def searched_deviation(k1, k2, h1, h2, turns=91, n=24):
-    """As for round sizes, of triangles that are equilateral in the metric of h1 and h2."""
-    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
-    keep = i + j <= n
-    weights = np.stack([i[keep], j[keep], n - i[keep] - j[keep]], axis=1) / n
-    worst = 0.0
-    for angle in np.linspace(0, 2 * np.pi / 3, turns):
-        a = angle + 2 * np.pi * np.arange(3) / 3
-        corners = np.stack([h1 * np.cos(a), h2 * np.sin(a)], axis=1) / np.sqrt(3)
-        height = corners**2 @ (k1, k2) / 2
-        place = weights @ corners
-        worst = max(worst, np.abs(weights @ height - place**2 @ (k1, k2) / 2).max())
-    return worst
 
 
 @pytest.mark.parametrize("k2", [1.0, 0.3, 1e-3, 1e-6, -1e-3, -0.3, -1.0])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from naive.searched_deviation import searched_deviation
 
 from surfmesh.sizing.rules.curvature_size import (
     ALIKE_RESERVE,
@@ -11,22 +12,6 @@ from surfmesh.sizing.rules.curvature_size import (
     deviation_factor,
     principal_angle_sizes,
 )
-
-
-def searched_deviation(k1, k2, turns=91, n=24):
-    """Largest distance in z between z = (k1 x^2 + k2 y^2) / 2 and an equilateral triangle of
-    side 1 with its corners on it, over places in the triangle and directions of the triangle."""
-    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
-    keep = i + j <= n
-    weights = np.stack([i[keep], j[keep], n - i[keep] - j[keep]], axis=1) / n
-    worst = 0.0
-    for angle in np.linspace(0, 2 * np.pi / 3, turns):
-        a = angle + 2 * np.pi * np.arange(3) / 3
-        corners = np.stack([np.cos(a), np.sin(a)], axis=1) / np.sqrt(3)
-        height = corners**2 @ (k1, k2) / 2
-        place = weights @ corners
-        worst = max(worst, np.abs(weights @ height - place**2 @ (k1, k2) / 2).max())
-    return worst
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.7, 0.5, 0.3, 0.0, -0.3, -0.5, -1.0])
