@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from surfmesh.result.surface_mesh import SurfaceMesh
     from surfmesh.sizing.options.sizing import Sizing
 
+_LOOKED_AT = 2000  # triangles, to tell which side a mesh faces
+
 
 def asked_sizing(options: Namespace) -> Sizing | dict[str, Sizing] | None:
     """The sizes that were asked for, or None; those of a file are of selections."""
@@ -209,9 +211,6 @@ def on_surface(found: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
         facts=model_facts(surface),
     )
     return _facing(made) if known else made
-
-
-_LOOKED_AT = 2000  # triangles, to tell which side a mesh faces
 
 
 def _facing(found: SurfaceMesh) -> SurfaceMesh:

@@ -18,6 +18,15 @@ if TYPE_CHECKING:
     from surfmesh.quality.report import Report
     from surfmesh.result.surface_mesh import SurfaceMesh
 
+_NOT_RECORDED = (
+    "command", "input", "inputs", "output", "picture", "report", "manifest", "sizes", "json",
+    "jobs", "sizing", "reading",
+)  # fmt: skip
+"""Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
+nothing in the files."""
+
+_WHOLE = ("picture", "report", "manifest", "second_opinion", "simplify", "flip")
+
 
 def report_written(result: SurfaceMesh, report: Report, options: Namespace) -> Path:
     """As JSON or as HTML, by its extension."""
@@ -27,14 +36,6 @@ def report_written(result: SurfaceMesh, report: Report, options: Namespace) -> P
 
     name = called(options.output)
     return html_report(result, options.report, by=options.by, name=name, report=report)
-
-
-_NOT_RECORDED = (
-    "command", "input", "inputs", "output", "picture", "report", "manifest", "sizes", "json",
-    "jobs", "sizing", "reading",
-)  # fmt: skip
-"""Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
-nothing in the files."""
 
 
 def manifest_written(result: SurfaceMesh, files: dict[str, str], options: Namespace) -> Path:
@@ -66,9 +67,6 @@ def require_outputs(options: Namespace) -> None:
             require_writable(path, *extensions)
     _require_two_files(options.report, options.manifest)
     _require_coloured(options)
-
-
-_WHOLE = ("picture", "report", "manifest", "second_opinion", "simplify", "flip")
 
 
 def in_pieces(surface: object, options: Namespace) -> TypeGuard[CadModel]:

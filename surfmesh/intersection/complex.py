@@ -14,6 +14,9 @@ from surfmesh.geometry.quadrature import unit_rule
 from surfmesh.geometry.small_matrices import product
 from surfmesh.intersection.contents import region_area
 
+GAUSS, WEIGHTS, PIECES = *unit_rule(5), 32
+"""The rule on each piece of an edge, and how many pieces its length is summed over."""
+
 
 class Origin(NamedTuple):
     """What a patch is of besides: source, original as of a `Patch`; is r_u x r_v of that face
@@ -112,10 +115,6 @@ def part_of_edge(edge: CadEdge, first: float, last: float, start: int, end: int)
         return replace(edge, t0=float(t0), t1=float(t1), start=start, end=end)
     made = replace(edge, t0=float(t0), t1=float(t1), start=start, end=end)
     return replace(made, length=measured_length(made))
-
-
-GAUSS, WEIGHTS = unit_rule(5)
-PIECES = 32
 
 
 def measured_length(edge: CadEdge) -> float:

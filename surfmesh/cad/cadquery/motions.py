@@ -24,6 +24,8 @@ MEET = 1e-6
 _FRACTIONS = (0.1, 0.5, 0.8)
 """Of the ranges of parameters, where edges and faces are sampled."""
 
+_KINDS = (TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE)
+
 
 def motion_between(before: TopoDS_Shape, after: TopoDS_Shape) -> gp_Trsf | None:
     """The rotation, shift or mirror from one to the other; None: they do not differ by one."""
@@ -46,9 +48,6 @@ def motion_between(before: TopoDS_Shape, after: TopoDS_Shape) -> gp_Trsf | None:
         if np.abs(old @ turn.T + shift - new).max() <= reach:
             return _transformation(turn, shift)
     return None
-
-
-_KINDS = (TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE)
 
 
 def _samples(

@@ -52,6 +52,11 @@ from surfmesh.errors import CadError
 Path = tuple[int, ...]
 """Of a part: which child of which child of the root."""
 
+_MADE_OF = {
+    TopAbs_COMPOUND: TopAbs_FACE, TopAbs_COMPSOLID: TopAbs_FACE, TopAbs_SOLID: TopAbs_FACE,
+    TopAbs_SHELL: TopAbs_FACE, TopAbs_WIRE: TopAbs_EDGE,
+}  # fmt: skip
+
 
 def sewn(root: Part, tolerance: float) -> Part:
     """The same tree with its loose faces joined.
@@ -188,12 +193,6 @@ class _Sewn:
             if found:
                 return found
         return [shape]
-
-
-_MADE_OF = {
-    TopAbs_COMPOUND: TopAbs_FACE, TopAbs_COMPSOLID: TopAbs_FACE, TopAbs_SOLID: TopAbs_FACE,
-    TopAbs_SHELL: TopAbs_FACE, TopAbs_WIRE: TopAbs_EDGE,
-}  # fmt: skip
 
 
 def _own_edges(face: TopoDS_Shape) -> list[TopoDS_Shape]:

@@ -20,6 +20,9 @@ from surfmesh.result.model_facts import FaceFacts, ModelFacts, SolidFacts
 
 _KNOWN: WeakKeyDictionary[CadModel, ModelFacts] = WeakKeyDictionary()  # asked for every round
 
+_ALONG = np.linspace(0.0, 1.0, 24, endpoint=False)
+"""Of an edge: where its loop has corners as a polygon."""
+
 
 def model_facts(model: CadModel) -> ModelFacts:
     """Exact figures of a model, of each face and each solid."""
@@ -126,10 +129,6 @@ def _components(face: CadFace, collapsed: Sequence[bool]) -> list[int]:
         holds = (k for k in around if np.mean(is_inside([polygons[k]], polygons[number])) > 0.5)
         components[number] = next(holds, 0)
     return components
-
-
-_ALONG = np.linspace(0.0, 1.0, 24, endpoint=False)
-"""Of an edge: where its loop has corners as a polygon."""
 
 
 def _meetings(model: CadModel, face: CadFace, number: list[int]) -> list[set[int]]:

@@ -24,6 +24,15 @@ _LONG_KEY = re.compile(
     r"""(?<![\w"'.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+)""" + f"{{{DEEPEST}}}"
 )
 
+_TYPE_NAMES = {
+    str: "text",
+    int: "a whole number",
+    float: "a number",
+    bool: "true or false",
+    list: "a list",
+    dict: "a table",
+}
+
 
 def sets_key(path: Path, key: str) -> bool:
     """Does the file set this key at its top level? A look at the lines, no parsing.
@@ -134,13 +143,3 @@ class TomlEntries:
             if key not in known:
                 choices = ", ".join(sorted(known))
                 raise self.error(f"{self.path}: unknown key '{prefix}{key:.60}'; known: {choices}")
-
-
-_TYPE_NAMES = {
-    str: "text",
-    int: "a whole number",
-    float: "a number",
-    bool: "true or false",
-    list: "a list",
-    dict: "a table",
-}

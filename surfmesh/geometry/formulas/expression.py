@@ -27,6 +27,8 @@ DEEPEST_READY = 150  # levels of a ready-made expression, each of its operations
 READY_DIGITS = 10_000  # binary digits of a number in it
 MOST_OPERATIONS = 8_000  # of a ready-made expression, whose text may be endless
 
+_CURE = ": give the surface as a function, a NumericSurface"
+
 
 def parse(
     text: str | float | sp.Expr,
@@ -112,6 +114,3 @@ def _refuse_endless(expression: sp.Expr) -> None:
         if many or (part.is_Number and part.is_finite and abs(part) > RANGE.constant):
             raise FormulaError("a number in the expression is too large, or has too many digits")
         sizes[part] = operations, levels
-
-
-_CURE = ": give the surface as a function, a NumericSurface"

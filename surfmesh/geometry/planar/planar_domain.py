@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 CROSSINGS = ("refuse", "split")
 FAR_AWAY = 1e-8  # last place of the largest coordinate over the diagonal: worth a warning
 
+_CACHED = ("_distance", "area", "regions", "warnings")
+
 
 class PlaneOfCoordinates:
     """The plane z = 0 with (u, v) = (x, y), as a ``Surface``."""
@@ -362,9 +364,6 @@ class PlanarDomain(PlaneOfCoordinates):
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a domain does not change; make a new one to set {name!r}")
-
-
-_CACHED = ("_distance", "area", "regions", "warnings")
 
 
 def _thinned(graph: SegmentGraph, distance: Any, places: np.ndarray) -> tuple[SegmentGraph, str]:

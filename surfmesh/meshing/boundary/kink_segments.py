@@ -26,6 +26,8 @@ SAME = 1e-9
 CLOSED_SEGMENTS = 3
 """Of a line that returns to its start, at least."""
 
+_NONE = np.empty((0, 2))
+
 
 def sides_met(surface: Surface, lines: list[KinkLine]) -> np.ndarray:
     """(j, 2) ends of kink lines that lie on the sides of the (u, v) rectangle."""
@@ -122,6 +124,3 @@ def _sag(
     squared = np.maximum(np.einsum("ij,ij->i", along, along), np.finfo(float).tiny)
     t = np.clip(np.einsum("ij,ij->i", between - start, along) / squared, 0.0, 1.0)
     return float(np.linalg.norm(between - start - t[:, None] * along, axis=1).max(initial=0.0))
-
-
-_NONE = np.empty((0, 2))

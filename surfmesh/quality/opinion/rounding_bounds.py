@@ -20,6 +20,8 @@ _TERM = 64.0 * EPS  # of a signed tetrahedron: six products of three coordinates
 _HERON = 12.0 * EPS  # of s (s - a) (s - b) (s - c), times s^4
 _BLOCK = 1 << 16  # triangles looked at together, to bound the memory
 
+_TINY = float(np.finfo(float).tiny)
+
 
 class Placed(NamedTuple):
     """A mesh near the origin and of about unit size; no triangle has changed its shape."""
@@ -87,9 +89,6 @@ def bounds(mesh: Placed) -> Bounds:
         heron=heron,
         cosine=np.minimum(cosine, 2.0),
     )
-
-
-_TINY = float(np.finfo(float).tiny)
 
 
 def _heron(sides: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -27,12 +27,10 @@ POLE_DISTANCE = 0.9
 FAR_BEYOND = 2.0
 """Times the limit of triangles: so many are not asked for by mistake of a coarse sampling."""
 
-
-_OPEN_SIDES = [-1] * 4, [False] * 4
-
-
 FREE_CELLS = 200_000
 """Of a surface of formulas: beyond so many, cells are held to the triangles that they ask for."""
+
+_OPEN_SIDES = [-1] * 4, [False] * 4
 
 
 class FieldBuilder:
