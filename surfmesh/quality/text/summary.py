@@ -23,6 +23,19 @@ def summary(report: Figures) -> str:
     name = f"{report.surface}: " if report.surface else ""
     lines = [f"{name}{report.nodes:,} nodes, {report.triangles:,} triangles - {verdict}"]
     lines += _listed(report.problems, _SHOWN_PROBLEMS, "problem")
+    lines += [
+        line
+        for title, text in _rows(report)
+        for line in textwrap.wrap(
+            text, WIDTH, initial_indent=f"  {title:<11}", subsequent_indent=" " * 13
+        )
+    ]
+    lines += _listed([f"warning: {text}" for text in report.warnings], _SHOWN_WARNINGS, "warning")
+    return "\n".join(map(printable, lines))
+
+
+def _rows(report: Figures) -> list[tuple[str, str]]:
+    """A title, or none for more of the same, and its text."""
     rows = [
         ("topology", _topology(report)),
         ("size", _size(report)),
@@ -66,15 +79,7 @@ def summary(report: Figures) -> str:
         rows.append(("opinion", _second_opinion(report.second_opinion)))
     if report.seconds:
         rows.append(("seconds", _seconds(report)))
-    lines += [
-        line
-        for title, text in rows
-        for line in textwrap.wrap(
-            text, WIDTH, initial_indent=f"  {title:<11}", subsequent_indent=" " * 13
-        )
-    ]
-    lines += _listed([f"warning: {text}" for text in report.warnings], _SHOWN_WARNINGS, "warning")
-    return "\n".join(map(printable, lines))
+    return rows
 
 
 def _topology(report: Figures) -> str:
