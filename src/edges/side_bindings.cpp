@@ -132,8 +132,8 @@ auto cuts(const MateRuns& runs, const CurvePieces& curves, const Points3& points
           const Numbers& shortest, const Numbers& sizes, double diagonal, double most) {
     const SampledCurves samples = checked_samples(curves, points, t, first);
     require_edges(runs, samples);
-    require_samples(samples, {runs.edge.data(), runs.edge.size()});
-    require_samples(samples, {runs.mate.data(), runs.mate.size()});
+    require_samples(samples, runs.edge);
+    require_samples(samples, runs.mate);
     require_rows(ends.shape(0), curves.size(), "ends");
     require_rows(vertices.shape(0), curves.size(), "vertices");
     require_indices(std::span(vertices.data(), vertices.size()), corners.shape(0), "vertices");

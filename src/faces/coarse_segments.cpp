@@ -57,7 +57,7 @@ CoarseSegments coarse_segments(const FaceField& field, const SegmentsInSpace& lo
         }
     }
     SurfaceValues values;
-    if (values.evaluate(field.surface, {places.data(), places.size()}, 0) == SurfaceStatus::DONE)
+    if (values.evaluate(field.surface, places, 0) == SurfaceStatus::DONE)
         found.points = Array<Point3>(values[0]);
     return found;
 }

@@ -54,7 +54,7 @@ Array<double> ways(const Surface& surface, const FaceBoundary& b, Piece one, Pie
     }
     SurfaceValues values;
     Array<double> lengths(static_cast<std::size_t>(count), 0.0);
-    if (values.evaluate(surface, {uv.data(), uv.size()}, 0) != SurfaceStatus::DONE) return lengths;
+    if (values.evaluate(surface, uv, 0) != SurfaceStatus::DONE) return lengths;
     for (std::int32_t k = 0; k < count; ++k)
         for (std::int32_t i = k * WAY_SAMPLES + 1; i < (k + 1) * WAY_SAMPLES; ++i)
             lengths[k] += norm(values[0][i] - values[0][i - 1]);
@@ -149,7 +149,7 @@ Point3 extent_over(const Surface& surface, const ParameterBox& box) {
         for (int k = 0; k <= STEPS; ++k)
             uv.push_back({k == STEPS ? box.high.x : k * step + box.low.x, v});
     SurfaceValues values;
-    if (values.evaluate(surface, {uv.data(), uv.size()}, 0) != SurfaceStatus::DONE)
+    if (values.evaluate(surface, uv, 0) != SurfaceStatus::DONE)
         return {NOT_KNOWN, NOT_KNOWN, NOT_KNOWN};
     Point3 low = values[0][0], high = low;
     for (const Point3 p : values[0]) {

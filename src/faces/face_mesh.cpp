@@ -33,13 +33,7 @@ GrownTree grown_inward(const FaceBoundary& b, const PlaneBox& box, const InwardG
         const Point2 p = uv - box.low;
         place.push_back({p.x * growth.speeds.x, p.y * growth.speeds.y});
     }
-    const Sources sources{{place.data(), place.size()},
-                          {b.sizes.data(), b.sizes.size()},
-                          1.0,
-                          0.0,
-                          1.0,
-                          growth.slope,
-                          growth.largest};
+    const Sources sources{place, b.sizes, 1.0, 0.0, 1.0, growth.slope, growth.largest};
     return grow_sizes(sources, {{0.0, 0.0}, extent}, fineness);
 }
 
@@ -85,18 +79,12 @@ struct FaceLoops {
     Array<Point3> points;
     Array<std::int64_t> slots;
 
-    [[nodiscard]] SegmentsInSpace in_space() const {
-        return {{uv.data(), uv.size()},
-                {points.data(), points.size()},
-                {nodes.segments.data(), nodes.segments.size()}};
-    }
+    [[nodiscard]] SegmentsInSpace in_space() const { return {uv, points, nodes.segments}; }
 };
 
 FaceLoops loops_of(const FacePolygons& polygons) {
     FaceLoops found;
-    found.nodes = loop_nodes({polygons.uv.data(), polygons.uv.size()},
-                             {polygons.numbers.data(), polygons.numbers.size()},
-                             {polygons.lengths.data(), polygons.lengths.size()});
+    found.nodes = loop_nodes(polygons.uv, polygons.numbers, polygons.lengths);
     for (const std::int32_t k : found.nodes.nodes) {
         found.uv.push_back(polygons.uv[k]);
         found.points.push_back(polygons.points[k]);
@@ -132,17 +120,13 @@ FaceMesh mesh_face(const FaceField& field, const FacePolygons& polygons, const F
                          manner.is_anisotropic,
                          manner.on_lattice};
     const Array<std::int64_t>& identity = loops.nodes.identity;
-    const LoopBoundary boundary{{xy.data(), xy.size()},
-                                in_space.segments,
-                                {},
-                                {identity.data(), identity.size()},
-                                in_space.points};
+    const LoopBoundary boundary{xy, in_space.segments, {}, identity, in_space.points};
     made.patch = mesh_patch(task, in_space.uv, boundary, hooks);
     if (made.patch.end != PatchEnd::done) {
         made.end = FaceEnd::patch_failed;
         return made;
     }
-    made.slots = slots_of_points(made.patch, {loops.slots.data(), loops.slots.size()});
+    made.slots = slots_of_points(made.patch, loops.slots);
     if (!made.patch.mapped.seamless.non_manifold.empty())
         made.end = FaceEnd::not_joined;
     else if (manner.first)
@@ -178,11 +162,10 @@ double metric_area_inward(const InwardFace& face) {
     const std::optional<InwardField> field = field_inward(face, Fineness::for_estimate);
     if (!field) return std::numeric_limits<double>::quiet_NaN();
     const FacePolygons polygons = polygons_of(*face.boundary);
-    const Array<Point2> xy = field->chart.to_plane({polygons.uv.data(), polygons.uv.size()});
+    const Array<Point2> xy = field->chart.to_plane(polygons.uv);
     Array<std::int64_t> first(1, 0);
     for (const std::int32_t length : polygons.lengths) first.push_back(first.back() + length);
-    return metric_area_within(
-        field->background, {{xy.data(), xy.size()}, {first.data(), first.size()}}, Between::sizes);
+    return metric_area_within(field->background, {xy, first}, Between::sizes);
 }
 
 }  // namespace surfmesh

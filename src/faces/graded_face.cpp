@@ -47,7 +47,7 @@ double diagonal_of(SurfaceReader& surface) {
         for (int column = 0; column <= EXTENT_STEPS; ++column)
             uv.push_back({low.x + static_cast<double>(column) / EXTENT_STEPS * wide.x,
                           low.y + static_cast<double>(row) / EXTENT_STEPS * wide.y});
-    surface.read({uv.data(), uv.size()}, 0);
+    surface.read(uv, 0);
     return box_diagonal(surface[0]);
 }
 
@@ -70,7 +70,7 @@ FieldPlan plan_of(const GradedFace& face, const Chart& chart, const CoincidentSi
     const Point2 extent = chart.extent();
     const int cells = root_cells_of_face(face.surface.pieces);
     const RootGrid grid = root_grid(extent, cells);
-    const Array<Point2> places = chart.to_plane({b.uv.data(), b.uv.size()});
+    const Array<Point2> places = chart.to_plane(b.uv);
     return {grid,
             extent,
             {extent.x / grid.nx, extent.y / grid.ny},
@@ -78,8 +78,7 @@ FieldPlan plan_of(const GradedFace& face, const Chart& chart, const CoincidentSi
             LARGEST_IN_BOX * std::max(extent.x, extent.y),
             sides.partner,
             sides.reversed,
-            small_sources({places.data(), places.size()}, {b.sizes.data(), b.sizes.size()}, grid,
-                          extent),
+            small_sources(places, b.sizes, grid, extent),
             true,
             false,
             FREE_CELLS,
@@ -115,10 +114,8 @@ std::optional<GradedField> graded_field(const GradedFace& face) {
     CoincidentSides sides;
     if (has_repeated_nodes(b)) sides = coincident_sides(reader, {});
     if (reader.failed() || sides.has_point()) return {};
-    const auto limits = std::make_shared<const SizeLimits>(
-        std::span<const Point3>{b.points.data(), b.points.size()},
-        std::span<const double>{b.sizes.data(), b.sizes.size()}, face.slope,
-        std::span<const MetricRoot3>{});
+    const auto limits = std::make_shared<const SizeLimits>(b.points, b.sizes, face.slope,
+                                                           std::span<const MetricRoot3>{});
     FieldBuilder builder(plan_of(face, chart, sides));
     SurfaceLaw law(surface, chart, std::move(rules), std::nullopt, {limits, 0.0, false});
     NothingHides hidden;

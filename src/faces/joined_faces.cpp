@@ -104,8 +104,7 @@ class Joining {
         const FacePart& part = parts_[k];
         const PlaceOfFace& at = places_[k];
         Array<std::int32_t> vertices = vertices_of(k);
-        put_triangles(part, {vertices.data(), vertices.size()},
-                      found_.triangles.data() + at.corner);
+        put_triangles(part, vertices, found_.triangles.data() + at.corner);
         std::fill_n(found_.face_ids.data() + at.corner / 3, part.triangles.size() / 3, part.face);
         std::copy(part.uv.begin(), part.uv.end(), found_.uv.data() + at.uv);
         const auto first = static_cast<std::int32_t>(at.uv);

@@ -98,7 +98,7 @@ class FaceJoiner {
 
     static std::span<const std::int64_t> numbers_of(nb::handle boundary) {
         const auto& numbers = nb::cast<const FaceBoundary&>(boundary).numbers;
-        return {numbers.data(), numbers.size()};
+        return numbers;
     }
 
     void keep(const FacePart& part, nb::handle boundary) {

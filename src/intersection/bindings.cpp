@@ -86,7 +86,7 @@ auto cells_bounded(const Surface& surface, const Points2& lo, const Points2& hi)
     for (std::size_t i = 0; i < lo.shape(0); ++i)
         cells.push_back({rows<Point2>(lo)[i], rows<Point2>(hi)[i]});
     SurfaceReader reader(surface);
-    const auto bounds = released([&] { return bound_cells(reader, {cells.data(), cells.size()}); });
+    const auto bounds = released([&] { return bound_cells(reader, cells); });
     raise_failure(surface, reader.status());
     return arrays_of(bounds);
 }
@@ -98,7 +98,7 @@ auto pieces_bounded(const Curve& curve, double first, double last, const Vector<
     Array<ParameterRange> ranges;
     for (std::size_t i = 0; i < lo.shape(0); ++i) ranges.push_back({lo.data()[i], hi.data()[i]});
     const nb::gil_scoped_release released;
-    const CellBounds bounds = bound_pieces({curve, first, last}, {ranges.data(), ranges.size()});
+    const CellBounds bounds = bound_pieces({curve, first, last}, ranges);
     const nb::gil_scoped_acquire held;
     return arrays_of(bounds);
 }

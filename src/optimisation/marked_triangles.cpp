@@ -34,7 +34,7 @@ std::optional<Array<Triangle>> triangles_at_few(const Triangulation& t, const St
     const auto end = static_cast<Vertex>(vertices.size());
     for (Vertex v = next_marked(vertices, 0, end); v < end; v = next_marked(vertices, v + 1, end))
         marked.push_back(v);
-    return triangles_around(t, stars, {marked.data(), marked.size()});
+    return triangles_around(t, stars, marked);
 }
 
 }  // namespace

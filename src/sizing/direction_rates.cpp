@@ -57,7 +57,7 @@ SurfaceStatus direction_rates(const Surface& surface, std::span<const RatePlace>
                 uv[i] = found.uv;
                 inside[i] = found.is_inside ? 1 : 0;
             }
-            const SurfaceStatus status = r.evaluate(surface, {uv.data(), uv.size()}, 2);
+            const SurfaceStatus status = r.evaluate(surface, uv, 2);
             if (status != SurfaceStatus::DONE) return status;
             for (std::size_t i = 0; i < places.size(); ++i) {
                 if (inside[i] == 0) continue;

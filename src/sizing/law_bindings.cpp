@@ -126,9 +126,7 @@ void bind_direction_rates(nb::module_& m) {
                                       rows<std::uint8_t>(along_first)[i] != 0,
                                       rows<double>(size)[i]});
                 status = reader.status();
-                if (!reader.failed())
-                    status = direction_rates(surface, {places.data(), places.size()},
-                                             {rates.data(), rates.size()});
+                if (!reader.failed()) status = direction_rates(surface, places, rates);
             }
             raise_failure(surface, status);
             return view(rates);

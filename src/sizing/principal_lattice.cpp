@@ -117,12 +117,12 @@ bool keeps_lattice(SurfaceReader& surface, Point2 extent, const SizeRules& rules
     if (rules.by_curvature.empty()) return false;
     const ParameterBox box = surface.domain();
     const Array<Point2> uv = places_over(box);
-    const Array<PrincipalDirections> at = directions_at(surface, {uv.data(), uv.size()});
+    const Array<PrincipalDirections> at = directions_at(surface, uv);
     if (surface.failed() || at.size() < uv.size() || !have_one_direction(at)) return false;
     Array<PrincipalCurvatures> k;
     for (const PrincipalDirections& own : at) k.push_back(own.k);
     Array<double> size(at.size());
-    if (!rules.from_curvature({k.data(), k.size()}, {size.data(), size.size()})) return false;
+    if (!rules.from_curvature(k, size)) return false;
     const double largest = *std::max_element(size.begin(), size.end());
     if (largest >= rules.largest || std::min(extent.x, extent.y) < LEAST_ROWS * largest)
         return false;

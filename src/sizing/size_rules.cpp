@@ -102,7 +102,7 @@ bool SizeRules::from_curvature(std::span<const PrincipalCurvatures> k,
     Array<double> own(k.size());
     std::fill(out.begin(), out.end(), NO_RULE);
     for (const auto& rule : by_curvature) {
-        if (!rule->sizes(k, {own.data(), own.size()})) return false;
+        if (!rule->sizes(k, own)) return false;
         for (std::size_t i = 0; i < k.size(); ++i) out[i] = least(out[i], own[i]);
     }
     for (double& size : out) size = within(size);
@@ -112,7 +112,7 @@ bool SizeRules::from_curvature(std::span<const PrincipalCurvatures> k,
 bool SizeRules::shorter(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
     if (!is_anisotropic()) return from_curvature(k, out);
     Array<PrincipalSizes> both(k.size());
-    if (!principal(k, {&anisotropy, 1}, {both.data(), both.size()})) return false;
+    if (!principal(k, {&anisotropy, 1}, both)) return false;
     for (std::size_t i = 0; i < k.size(); ++i) out[i] = least(both[i].first, both[i].second);
     return true;
 }
@@ -122,7 +122,7 @@ bool SizeRules::principal(std::span<const PrincipalCurvatures> k, std::span<cons
     Array<PrincipalSizes> own(k.size());
     std::fill(out.begin(), out.end(), PrincipalSizes{NO_RULE, NO_RULE});
     for (const auto& rule : by_curvature) {
-        if (!rule->principal_sizes(k, ratio, {own.data(), own.size()})) return false;
+        if (!rule->principal_sizes(k, ratio, own)) return false;
         for (std::size_t i = 0; i < k.size(); ++i)
             out[i] = {least(out[i].first, own[i].first), least(out[i].second, own[i].second)};
     }
@@ -144,7 +144,7 @@ bool SizeRules::from_place(std::span<const Point3> points, std::span<double> out
     Array<double> own(points.size());
     std::fill(out.begin(), out.end(), NO_RULE);
     for (const auto& rule : by_place) {
-        if (!rule->sizes(points, {own.data(), own.size()})) return false;
+        if (!rule->sizes(points, own)) return false;
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = least(out[i], own[i]);
     }
     return true;

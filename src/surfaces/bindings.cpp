@@ -48,10 +48,8 @@ std::optional<std::pair<BoundArrays, BoundArrays>> derivative_bounds(const Surfa
     Array<ParameterBox> cells(count);
     for (std::size_t i = 0; i < count; ++i) cells[i] = {rows<Point2>(lo)[i], rows<Point2>(hi)[i]};
     Array<Point3> lower(BOUNDED_DERIVATIVES * count), upper(BOUNDED_DERIVATIVES * count);
-    const auto status = released([&] {
-        return surface.derivative_bounds({cells.data(), count}, {lower.data(), lower.size()},
-                                         {upper.data(), upper.size()});
-    });
+    const auto status =
+        released([&] { return surface.derivative_bounds({cells.data(), count}, lower, upper); });
     raise_failure(surface, status);
     if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
     return std::pair(shaped<BoundArrays>(lower, count, BOUNDED_DERIVATIVES),
@@ -66,10 +64,8 @@ std::optional<DerivativeArrays> derivative_magnitudes(const Surface& surface, co
     Array<ParameterBox> cells(count);
     for (std::size_t i = 0; i < count; ++i) cells[i] = {rows<Point2>(lo)[i], rows<Point2>(hi)[i]};
     Array<Point3> found(derivative_count(order) * count);
-    const auto status = released([&] {
-        return surface.derivative_magnitudes({cells.data(), count}, order,
-                                             {found.data(), found.size()});
-    });
+    const auto status = released(
+        [&] { return surface.derivative_magnitudes({cells.data(), count}, order, found); });
     raise_failure(surface, status);
     if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
     return shaped<DerivativeArrays>(found, count, derivative_count(order));

@@ -71,7 +71,7 @@ CoincidentSides coincident_sides(SurfaceReader& surface, const std::array<double
     uv.reserve(PLACES.size());
     for (const Point2 p : PLACES)
         uv.push_back({part_of_way(low.x, high.x, p.x), part_of_way(low.y, high.y, p.y)});
-    surface.read({uv.data(), uv.size()}, 0);
+    surface.read(uv, 0);
     const std::span<const Point3> cloud = surface[0];
     const double whole = box_diagonal(cloud);
     CoincidentSides found;

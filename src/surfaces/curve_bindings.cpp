@@ -51,7 +51,7 @@ nb::ndarray<nb::numpy, double, nb::ndim<3>> evaluate_curve(const Curve& curve, c
     Array<Point3> values(shape[0] * shape[1]);
     {
         const nb::gil_scoped_release released;
-        curve.evaluate(numbers(t), order, {values.data(), values.size()});
+        curve.evaluate(numbers(t), order, values);
     }
     if (dimension == 3)
         return {reinterpret_cast<double*>(values.data()), 3, shape, owner_of(values)};
@@ -153,8 +153,7 @@ void bind_basis(nb::module_& m) {
             const std::size_t columns = degree + 1;
             const std::size_t shape[] = {static_cast<std::size_t>(order + 1), columns};
             Array<double> table(columns * columns), found(shape[0] * columns);
-            basis.derivatives(place, order, {table.data(), table.size()},
-                              {found.data(), found.size()});
+            basis.derivatives(place, order, table, found);
             return std::tuple(place.span, place.t, Basis(found.data(), 2, shape, owner_of(found)));
         },
         nb::arg("knots"), nb::arg("degree"), nb::arg("t"), nb::arg("order"), nb::arg("first"),

@@ -84,7 +84,7 @@ NewVectors evaluate_tape(const Tape& tape, const Rows& points) {
     Array<Point3> found(vectors * count);
     {
         const nb::gil_scoped_release released;
-        evaluate(tape, given, {found.data(), found.size()});
+        evaluate(tape, given, found);
     }
     const std::size_t shape[] = {vectors, count, 3};
     const nb::object owner = nb::cast(view(found));
@@ -99,8 +99,7 @@ std::pair<NewRows, NewRows> bound_tape(const Tape& tape, const Rows& lo, const R
     Array<double> lower(shape[0] * shape[1]), upper(shape[0] * shape[1]);
     {
         const nb::gil_scoped_release released;
-        bounds(tape, low, high, kinks ? Kinks::UNBOUNDED : Kinks::LEFT_OUT, 0,
-               {lower.data(), lower.size()}, {upper.data(), upper.size()});
+        bounds(tape, low, high, kinks ? Kinks::UNBOUNDED : Kinks::LEFT_OUT, 0, lower, upper);
     }
     const auto shaped = [&](const Array<double>& values) {
         return NewRows(values.data(), 2, shape, nb::cast(view(values)));
@@ -115,7 +114,7 @@ std::pair<NewRows, NewRows> enclose_tape(const Tape& tape, const Rows& points) {
     Array<double> mid, rad;
     {
         const nb::gil_scoped_release released;
-        enclose_outputs(tape, given, {found.data(), found.size()});
+        enclose_outputs(tape, given, found);
         for (const Ball& ball : found) {
             mid.push_back(ball.mid);
             rad.push_back(ball.rad);

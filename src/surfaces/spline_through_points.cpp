@@ -74,10 +74,9 @@ KnotsAndControl spline_through_points(std::span<const double> places,
                                       std::span<const double> values, std::size_t dimension,
                                       std::size_t degree) {
     KnotsAndControl made{knots_beside(places, degree), Array<double>(values)};
-    const SplineBasis basis({made.knots.data(), made.knots.size()}, degree,
-                            {NO_LIMIT, NO_LIMIT, 0.0});
+    const SplineBasis basis(made.knots, degree, {NO_LIMIT, NO_LIMIT, 0.0});
     Band matrix = collocation(basis, places);
-    solve(matrix, {made.control.data(), made.control.size()}, dimension);
+    solve(matrix, made.control, dimension);
     return made;
 }
 
