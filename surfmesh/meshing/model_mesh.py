@@ -36,10 +36,10 @@ from surfmesh.meshing.faces.face_workers import FaceWorkers
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
-    solids_of_model,
     widened_model,
 )
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
+from surfmesh.meshing.finishing.enclosed_solids import solids_of_model
 from surfmesh.meshing.model_rounds import MeshingManner, ModelRounds
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.progress import Progress, Stopwatch

@@ -47,11 +47,11 @@ from surfmesh.meshing.estimate.trial_patches import (
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
-    solids_of_surface,
     widened,
     with_chord_of_surface,
 )
 from surfmesh.meshing.finishing.curved_requests import requests_for_curved
+from surfmesh.meshing.finishing.enclosed_solids import solids_of_surface
 from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
 from surfmesh.meshing.patch.proved_patch import Patch, cut_until_proved
 from surfmesh.meshing.patch.refinement_loop import (

@@ -27,8 +27,8 @@ def sides_of_triangles(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(m,) the sides behind and before each triangle, -1 where there is none."""
     sides = tetrahedra[:, CORNERS].reshape(-1, 3)
-    _, of_side, turned = _keys(sides)
-    _, wanted, wanted_turned = _keys(triangles)
+    of_side, turned = _keys(sides)
+    wanted, wanted_turned = _keys(triangles)
     order = np.lexsort((turned, *of_side.T[::-1]))
     table = np.column_stack((of_side, turned))[order]
     return tuple(
@@ -36,12 +36,12 @@ def sides_of_triangles(
     )  # type: ignore[return-value]
 
 
-def _keys(rows: NDArray) -> tuple[NDArray, NDArray[np.int64], NDArray[np.int64]]:
-    """The rows, their numbers ascending, and 1 where that reverses the sense of rotation."""
+def _keys(rows: NDArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The numbers of each row, ascending, and 1 where that reverses the sense of rotation."""
     order = np.argsort(rows, axis=1, kind="stable")
     first = order[:, 0]
     turned = (order[:, 1] != (first + 1) % 3).astype(np.int64)
-    return rows, np.take_along_axis(rows, order, axis=1).astype(np.int64), turned
+    return np.take_along_axis(rows, order, axis=1).astype(np.int64), turned
 
 
 def _found(table: NDArray[np.int64], wanted: NDArray[np.int64], order: NDArray) -> NDArray:
@@ -85,7 +85,7 @@ def solids_of_tetrahedra(
 
 def _regions(tetrahedra: NDArray, stops: NDArray[np.int64]) -> NDArray[np.int32]:
     """(k,) numbers of the parts that the sides ``stops`` leave connected."""
-    _, keys, _ = _keys(tetrahedra[:, CORNERS].reshape(-1, 3))
+    keys, _ = _keys(tetrahedra[:, CORNERS].reshape(-1, 3))
     order = np.lexsort(keys.T[::-1])
     same = (keys[order][1:] == keys[order][:-1]).all(axis=1)
     stopped = np.zeros(len(keys), bool)

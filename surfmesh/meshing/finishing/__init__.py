@@ -12,6 +12,7 @@ kept_volumes: steps that give solids their exact volumes.
 balanced_vertices: vertices off their surfaces, which then lie on both sides of the triangles.
 turned_edges: edges across which triangles have come to turn by more than ``angle``, as their
     vertices moved.
+enclosed_solids: the closed solids that a mesh encloses, whose volumes are known or can be found.
 balanced_rounds: meshes of that kind, sizes for nearly twice the chord and smaller where need be.
 edge_collapse: short edges of a finished mesh, collapsed: tiny edges and slivers of a CAD model
     go away.
