@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from surfmesh.errors import MeshingError, SizingError
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.defaults import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
+from surfmesh.sizing.options.defaults import DEFAULT_CHORD, default_max_size
 from surfmesh.sizing.options.sizing import Sizing
 
 NEAR = 0.02
@@ -286,11 +286,10 @@ def _off(mesh: SurfaceMesh, wanted: int) -> float:
 
 def _scaled(sizing: Sizing, diagonal: float, scales: Scales) -> Sizing:
     """The default sizes times ``scales``, within the other sizes asked for."""
-    fraction = LONGEST if sizing.anisotropy > 1.0 else DEFAULT_MAX_SIZE
-    largest = max(fraction * diagonal * scales.size, sizing.min_size or 0.0)
-    return sizing.replaced(
+    scaled = sizing.replaced(
         triangles=None,
         chord=DEFAULT_CHORD * diagonal * scales.chord**2,
-        max_size=min(largest, sizing.max_size or math.inf),
         limit=max(sizing.limit, ROOM * _wanted(sizing)),
     )
+    largest = default_max_size(scaled, diagonal, scales.size)
+    return scaled.replaced(max_size=min(largest, sizing.max_size or math.inf))

@@ -48,7 +48,11 @@ def with_defaults(sizing: Sizing, diagonal: float) -> Sizing:
     """The same with the default of ``max_size`` filled in too."""
     sizing = with_default_chord(sizing, diagonal)
     if sizing.max_size is None and sizing.size is None:
-        fraction = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
-        largest = max(fraction * diagonal, sizing.min_size or 0.0)
-        sizing = sizing.replaced(max_size=largest)
+        sizing = sizing.replaced(max_size=default_max_size(sizing, diagonal))
     return sizing
+
+
+def default_max_size(sizing: Sizing, diagonal: float, times: float = 1.0) -> float:
+    """The default of ``max_size``, so many times, where ``min_size`` leaves room for it."""
+    fraction = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
+    return max(fraction * diagonal * times, sizing.min_size or 0.0)
