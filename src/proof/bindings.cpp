@@ -305,26 +305,11 @@ void bind_single_triangles(nb::module_& m) {
           "The same with straight sides of the triangles that have ``is_bad`` (m,).");
 }
 
-void bind_triangles_together(nb::module_& m) {
-    m.def("parted_half_edges", &parted, nb::arg("uv"), nb::arg("twins"),
-          "(k,) half-edges with a twin after them whose ends have other parameters in the twin's "
-          "triangle, as at seams.\n\nuv: (m, 3, 2); twins: (3 m,), -1 at rims.");
-    m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
-          nb::arg("bounds"),
-          "(m,) how far triangles and surface are from each other at most, both ways, each with "
-          "its neighbours; (m,) whether it took them.\n\ntriangles: (m, 3) vertices; twins: (3 m,) "
-          "the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``.");
-    m.def("look_closer", &closer, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
-          nb::arg("bends"), nb::arg("triangles"), nb::arg("twins"), nb::arg("bounds"),
-          nb::arg("which"), nb::arg("limits"), nb::arg("levels"), nb::arg("bound"), nb::arg("gaps"),
-          nb::arg("gap_owners"), nb::arg("gap_bounds"),
-          "The bounds ``bound`` (m,) of ``ring_bounds``, lower for those ``which`` (k,) of which "
-          "a closer look at up to 4^levels cells each shows that.\n\ngaps: (g, 3, 2) triangles of "
-          "the (u, v) plane that have none in space, at poles; gap_owners: (g,) the triangle that "
-          "each lies beside, ascending; gap_bounds: their bounds along the axes of these.");
-}
+}  // namespace
 
-void bind_isotopy_and_curves(nb::module_& m) {
+void bind_proof(nb::module_& m) {
+    m.doc() = "Proved bounds of the distance between triangles and surfaces.";
+    bind_single_triangles(m);
     m.def(
         "prove_isotopy", &isotopy, nb::arg("points"), nb::arg("triangles"), nb::arg("away"),
         nb::arg("slope"),
@@ -347,15 +332,22 @@ void bind_isotopy_and_curves(nb::module_& m) {
           "(k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between "
           "``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no "
           "bounds.");
-}
-
-}  // namespace
-
-void bind_proof(nb::module_& m) {
-    m.doc() = "Proved bounds of the distance between triangles and surfaces.";
-    bind_single_triangles(m);
-    bind_isotopy_and_curves(m);
-    bind_triangles_together(m);
+    m.def("parted_half_edges", &parted, nb::arg("uv"), nb::arg("twins"),
+          "(k,) half-edges with a twin after them whose ends have other parameters in the twin's "
+          "triangle, as at seams.\n\nuv: (m, 3, 2); twins: (3 m,), -1 at rims.");
+    m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
+          nb::arg("bounds"),
+          "(m,) how far triangles and surface are from each other at most, both ways, each with "
+          "its neighbours; (m,) whether it took them.\n\ntriangles: (m, 3) vertices; twins: (3 m,) "
+          "the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``.");
+    m.def("look_closer", &closer, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
+          nb::arg("bends"), nb::arg("triangles"), nb::arg("twins"), nb::arg("bounds"),
+          nb::arg("which"), nb::arg("limits"), nb::arg("levels"), nb::arg("bound"), nb::arg("gaps"),
+          nb::arg("gap_owners"), nb::arg("gap_bounds"),
+          "The bounds ``bound`` (m,) of ``ring_bounds``, lower for those ``which`` (k,) of which "
+          "a closer look at up to 4^levels cells each shows that.\n\ngaps: (g, 3, 2) triangles of "
+          "the (u, v) plane that have none in space, at poles; gap_owners: (g,) the triangle that "
+          "each lies beside, ascending; gap_bounds: their bounds along the axes of these.");
 }
 
 }  // namespace surfmesh::binding

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "binding/arrays.hpp"
-#include "binding/released.hpp"
 #include "surfaces/callback_surface.hpp"
 #include "surfaces/chart_making.hpp"
 #include "surfaces/monotone_cubic.hpp"
@@ -45,7 +44,11 @@ Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
     const std::array axes = {known(steady.first, pieces.first),
                              known(steady.second, pieces.second)};
     SurfaceReader reader(surface);
-    const auto made = released([&] { return chart_of(reader, axes); });
+    Chart made;
+    {
+        const nb::gil_scoped_release released;
+        made = chart_of(reader, axes);
+    }
     raise_failure(surface, reader.status());
     if (reader.failed()) throw nb::value_error("the surface has no first derivatives");
     return made;
