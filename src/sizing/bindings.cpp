@@ -1,15 +1,18 @@
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/vector.h>
 
 #include "binding/arrays.hpp"
-#include "sizing/curvature_sizes.hpp"
+#include "sizing/callback_rules.hpp"
 #include "sizing/least_counts.hpp"
 #include "sizing/rim_sizes.hpp"
+#include "sizing/size_rules.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
 void bind_sizing(nb::module_& m);
-void bind_size_rules(nb::module_& m);
+void bind_asked_rules(nb::module_& m);
 void bind_size_limits(nb::module_& m);
 void bind_size_laws(nb::module_& m);
 
@@ -145,6 +148,47 @@ void bind_least_counts(nb::module_& m) {
         "node, which is not repeated, follows the last.");
 }
 
+void bind_rules(nb::module_& m) {
+    nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
+    nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
+    nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
+        .def(nb::init<double, bool, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
+             nb::arg("on_lattice") = false,
+             "is_width: chord is that of the whole band that a triangle needs. on_lattice: edges "
+             "lie where they deviate least.");
+    nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
+        .def(nb::init<double>(), nb::arg("chord"));
+    nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
+        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
+             "angle: degrees. finest: nothing smaller is asked for, model units.");
+    nb::class_<NormalDeviationRule, CurvatureRule>(m, "NormalDeviationRule")
+        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"), "Likewise.");
+    nb::class_<ConstantSize, PlaceRule>(m, "ConstantSize").def(nb::init<double>(), nb::arg("size"));
+    nb::class_<CallbackCurvatureRule, CurvatureRule>(m, "CallbackCurvatureRule")
+        .def(nb::init<nb::object>(), nb::arg("rule"),
+             "rule: a CurvatureRule of surfmesh.sizing.rules.rule.");
+    nb::class_<CallbackPlaceRule, PlaceRule>(m, "CallbackPlaceRule")
+        .def(nb::init<nb::object>(), nb::arg("rule"),
+             "rule: a PlaceRule of surfmesh.sizing.rules.rule.");
+    nb::class_<SizeRules>(m, "SizeRules", "All rules that hold on one surface.")
+        .def(
+            "__init__",
+            [](SizeRules* made, std::vector<std::shared_ptr<CurvatureRule>> by_curvature,
+               std::vector<std::shared_ptr<PlaceRule>> by_place, std::pair<double, double> clamp,
+               double longest, double anisotropy) {
+                new (made) SizeRules{{by_curvature.begin(), by_curvature.end()},
+                                     {by_place.begin(), by_place.end()},
+                                     clamp.first,
+                                     clamp.second,
+                                     longest,
+                                     anisotropy};
+            },
+            nb::arg("by_curvature"), nb::arg("by_place"), nb::arg("clamp"), nb::arg("longest"),
+            nb::arg("anisotropy"),
+            "clamp: the smallest and the largest size. longest: the largest along the longer axis "
+            "of an anisotropic metric. anisotropy: largest ratio of two sizes.");
+}
+
 }  // namespace
 
 void bind_sizing(nb::module_& m) {
@@ -153,7 +197,8 @@ void bind_sizing(nb::module_& m) {
     bind_formulas_of_sizes(m);
     bind_rim_sizes(m);
     bind_least_counts(m);
-    bind_size_rules(m);
+    bind_rules(m);
+    bind_asked_rules(m);
     bind_size_limits(m);
     bind_size_laws(m);
 }

@@ -106,6 +106,14 @@ class CallbackPlaceRule(PlaceRule):
     def __init__(self, rule: object) -> None:
         """rule: a PlaceRule of surfmesh.sizing.rules.rule."""
 
+class SizeRules:
+    """All rules that hold on one surface."""
+
+    def __init__(self, by_curvature: Sequence[CurvatureRule], by_place: Sequence[PlaceRule], clamp: tuple[float, float], longest: float, anisotropy: float) -> None:
+        """
+        clamp: the smallest and the largest size. longest: the largest along the longer axis of an anisotropic metric. anisotropy: largest ratio of two sizes.
+        """
+
 FINEST_SIZE: float = 1e-05
 
 FINEST_BY_ANGLE: float = 0.0002
@@ -140,14 +148,6 @@ class SizeBounds:
 
 def size_bounds(stated: StatedBounds, diagonal: float) -> SizeBounds:
     """On a surface whose bounding box has this diagonal, model units."""
-
-class SizeRules:
-    """All rules that hold on one surface."""
-
-    def __init__(self, by_curvature: Sequence[CurvatureRule], by_place: Sequence[PlaceRule], clamp: tuple[float, float], longest: float, anisotropy: float) -> None:
-        """
-        clamp: the smallest and the largest size. longest: the largest along the longer axis of an anisotropic metric. anisotropy: largest ratio of two sizes.
-        """
 
 class AskedRules:
     """What is asked for on any surface, the same in all directions."""

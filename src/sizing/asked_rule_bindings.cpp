@@ -1,45 +1,19 @@
-// Size rules and their bounds, on one surface and on any.
+// Size rules on surfaces of any extent, and their bounds.
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include "binding/arrays.hpp"
 #include "sizing/asked_rules.hpp"
-#include "sizing/callback_rules.hpp"
 
 namespace surfmesh::binding {
 
-void bind_size_rules(nb::module_& m);
+void bind_asked_rules(nb::module_& m);
 
 namespace {
 
 template <class Rule>
 using Given = std::vector<std::shared_ptr<Rule>>;
-
-void bind_each_rule(nb::module_& m) {
-    nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
-    nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
-    nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
-        .def(nb::init<double, bool, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
-             nb::arg("on_lattice") = false,
-             "is_width: chord is that of the whole band that a triangle needs. on_lattice: edges "
-             "lie where they deviate least.");
-    nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
-        .def(nb::init<double>(), nb::arg("chord"));
-    nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
-        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
-             "angle: degrees. finest: nothing smaller is asked for, model units.");
-    nb::class_<NormalDeviationRule, CurvatureRule>(m, "NormalDeviationRule")
-        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"), "Likewise.");
-    nb::class_<ConstantSize, PlaceRule>(m, "ConstantSize").def(nb::init<double>(), nb::arg("size"));
-    nb::class_<CallbackCurvatureRule, CurvatureRule>(m, "CallbackCurvatureRule")
-        .def(nb::init<nb::object>(), nb::arg("rule"),
-             "rule: a CurvatureRule of surfmesh.sizing.rules.rule.");
-    nb::class_<CallbackPlaceRule, PlaceRule>(m, "CallbackPlaceRule")
-        .def(nb::init<nb::object>(), nb::arg("rule"),
-             "rule: a PlaceRule of surfmesh.sizing.rules.rule.");
-}
 
 void bind_bounds(nb::module_& m) {
     m.attr("FINEST_SIZE") = FINEST_SIZE;
@@ -69,25 +43,6 @@ void bind_bounds(nb::module_& m) {
           "On a surface whose bounding box has this diagonal, model units.");
 }
 
-void bind_rules_of_one_surface(nb::module_& m) {
-    nb::class_<SizeRules>(m, "SizeRules", "All rules that hold on one surface.")
-        .def(
-            "__init__",
-            [](SizeRules* made, Given<CurvatureRule> by_curvature, Given<PlaceRule> by_place,
-               std::pair<double, double> clamp, double longest, double anisotropy) {
-                new (made) SizeRules{{by_curvature.begin(), by_curvature.end()},
-                                     {by_place.begin(), by_place.end()},
-                                     clamp.first,
-                                     clamp.second,
-                                     longest,
-                                     anisotropy};
-            },
-            nb::arg("by_curvature"), nb::arg("by_place"), nb::arg("clamp"), nb::arg("longest"),
-            nb::arg("anisotropy"),
-            "clamp: the smallest and the largest size. longest: the largest along the longer axis "
-            "of an anisotropic metric. anisotropy: largest ratio of two sizes.");
-}
-
 void bind_rules_of_any_surface(nb::module_& m) {
     nb::class_<AskedRules>(m, "AskedRules",
                            "What is asked for on any surface, the same in all directions.")
@@ -109,10 +64,8 @@ void bind_rules_of_any_surface(nb::module_& m) {
 
 }  // namespace
 
-void bind_size_rules(nb::module_& m) {
-    bind_each_rule(m);
+void bind_asked_rules(nb::module_& m) {
     bind_bounds(m);
-    bind_rules_of_one_surface(m);
     bind_rules_of_any_surface(m);
 }
 
