@@ -6,11 +6,6 @@
 #include "values/segment.hpp"
 
 namespace surfmesh {
-namespace {
-
-constexpr double ROUNDING = TriangleRing::ROUNDING;
-
-}  // namespace
 
 void CellsOverRing::take(const PieceInCells& piece) {
     bounds_ = &piece.bounds;

@@ -39,12 +39,11 @@ class CellsOverRing {
     [[nodiscard]] double farthest_at_rims(const SpaceCorners& p) const;
 
   private:
+    static constexpr double ROUNDING = TriangleRing::ROUNDING;
     /// The corners of a cell, as rows of points.
     using GridCell = std::array<std::size_t, 3>;
 
-    [[nodiscard]] double rounded() const {
-        return (TriangleRing::ROUNDING + rounded_uv_) * ring_.longest();
-    }
+    [[nodiscard]] double rounded() const { return (ROUNDING + rounded_uv_) * ring_.longest(); }
     /// How far a cell may reach beyond its corners, within a plane.
     [[nodiscard]] double grown() const { return scale_ * bounds_->cell_whole + rounded(); }
     /// How far it may rise over its corners, from a member's plane.
