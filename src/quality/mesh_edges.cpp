@@ -13,15 +13,6 @@
 namespace surfmesh {
 namespace {
 
-constexpr double NO_SIZE = std::numeric_limits<double>::min();  // no division by zero
-
-/// The larger of two, NaN where one of them is.
-double larger_number(double a, double b) { return b > a || b != b ? b : a; }
-
-Point3 normal_of(std::span<const Point3> points, const TriangleCorners& t) {
-    return cross(points[t.b] - points[t.a], points[t.c] - points[t.a]);
-}
-
 /// Corner e % 3 of triangle e / 3.
 Vertex corner_of_half_edge(std::span<const TriangleCorners> triangles, HalfEdge e) {
     return corners_in_a_row(triangles)[e];
@@ -146,29 +137,6 @@ AnglesWithinFaces angles_within_faces(std::span<const Point3> points,
     }
     found.degrees = degrees.done();
     return found;
-}
-
-Array<double> rim_losses(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
-                         std::span<const EdgeTable::Sides> sides, std::span<const double> sagitta,
-                         std::span<const double> distance, double sharpest) {
-    Array<double> lost(sides.size());
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-        const auto [e, f] = sides[k];
-        const Point3 start = points[corner_of_half_edge(triangles, e)];
-        const double length =
-            norm(points[corner_of_half_edge(triangles, next_half_edge(e))] - start);
-        double slanted = larger_number(distance[e / 3], 0.0);
-        if (f != NIL) {
-            const Point3 m = normal_of(points, triangles[e / 3]);
-            const Point3 n = normal_of(points, triangles[f / 3]);
-            const double size = larger_number(norm(m) * norm(n), NO_SIZE);
-            const double sine = larger_number(norm(cross(m, n)) / size, sharpest);
-            slanted = larger_number(distance[e / 3], distance[f / 3]) / sine;
-        }
-        const double off = larger_number(sagitta[k], slanted);
-        lost[k] = length * (off < length || off != off ? off : length);
-    }
-    return lost;
 }
 
 }  // namespace surfmesh

@@ -84,7 +84,8 @@ class PatchSearch {
         rim_.clear();
         for (std::size_t e = 0; e < twins_.size(); ++e)
             if (twins_[e] == NIL)
-                add_to_rim(static_cast<std::int32_t>(e / 3), static_cast<std::int32_t>(e % 3), view);
+                add_to_rim(static_cast<std::int32_t>(e / 3), static_cast<std::int32_t>(e % 3),
+                           view);
         return is_simple_rim(rim_);
     }
 

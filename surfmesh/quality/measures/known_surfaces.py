@@ -17,6 +17,7 @@ from surfmesh._core.quality import (
 )
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -76,6 +77,11 @@ class KnownSurfaces:
         """Only the triangles that are asked for are handed on: every one of them is checked."""
         rows = np.arange(len(triangle), dtype=np.int32)
         return interpolate(values, triangles[triangle], rows, rule, weights)
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Of the box around the vertices."""
+        return diagonal(self.mesh.points)
 
     @cached_property
     def core_surfaces(self) -> list[CoreSurface]:
