@@ -79,7 +79,7 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
 
 
 def _rim_sagittas(mesh: SurfaceMesh, rows: NDArray[np.intp]) -> NDArray[np.float64]:
-    """(k,) about twice the sagittas of rims, rows of ``mesh.edges``, by the angles at their ends."""
+    """(k,) about twice the sagittas of edges that are rims, by the angles at their ends."""
     vertices, ends = np.unique(mesh.edges[rows], return_inverse=True)
     ends = ends.reshape(-1, 2)
     places = mesh.points[vertices]

@@ -289,15 +289,23 @@ class Measurements:
         curved = 0.0 if self.curved_shapes is None else float(self.curved_shapes.volume.sum())
         return enclosed_volume(self.mesh) + curved
 
+    @property
+    def has_exact_figures(self) -> bool:
+        """Are exact areas or volumes known, and the deviation that explains what is lost?"""
+        found = self.deviation
+        return (
+            found is not None
+            and not self.broken
+            and bool(np.isfinite(found.largest))
+            and is_known(self.mesh)
+        )
+
     @cached_property
     def explained(self) -> Explained | None:
         """How much area and volume the deviation explains, where exact ones are known."""
-        found = self.deviation
-        if found is None or self.broken or not np.isfinite(found.largest):
+        if self.deviation is None or not self.has_exact_figures:
             return None
-        if not is_known(self.mesh):
-            return None
-        return explained(self.mesh, self.shapes.area, found.by_triangle)
+        return explained(self.mesh, self.shapes.area, self.deviation.by_triangle)
 
     @cached_property
     def crosses_itself(self) -> bool:
