@@ -215,6 +215,15 @@ void bind_fans(nb::module_& m) {
         nb::arg("triangles"), nb::arg("vertices"),
         "The first of so many vertices that belongs to none of triangles (m, 3), or -1.");
     m.def(
+        "are_proper",
+        [](const VertexTriples& triangles, std::size_t vertices) {
+            const nb::gil_scoped_release released;
+            return are_proper(rows<TriangleCorners>(triangles), vertices);
+        },
+        nb::arg("triangles"), nb::arg("vertices"),
+        "Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no "
+        "three of them twice, and no vertex left out?");
+    m.def(
         "has_repeated_triangles",
         [](const VertexTriples& triangles, std::size_t vertices) {
             require_indices(all_numbers(triangles), vertices, "triangles");

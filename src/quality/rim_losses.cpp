@@ -14,7 +14,7 @@ constexpr double NO_SIZE = std::numeric_limits<double>::min();  // no division b
 constexpr double NO_RIM = -1.0;                                 // instead of a sagitta
 
 /// The larger of two, NaN where one of them is.
-double larger_or_nan(double a, double b) { return b > a || b != b ? b : a; }
+double larger_number(double a, double b) { return b > a || b != b ? b : a; }
 
 Point3 normal_of(std::span<const Point3> points, const TriangleCorners& t) {
     return cross(points[t.b] - points[t.a], points[t.c] - points[t.a]);
@@ -27,7 +27,7 @@ Array<double> sagittas_of_rims(const JoinedTriangles& mesh, const Sagittas& give
     for (std::size_t k = 0; k < given.rows.size(); ++k)
         if (given.rows[k] != NIL) {
             double& own = sagitta[given.rows[k]];
-            own = larger_or_nan(larger_or_nan(own, 0.0), given.values[k]);
+            own = larger_number(larger_number(own, 0.0), given.values[k]);
         }
     return sagitta;
 }
@@ -47,7 +47,7 @@ Array<double> edge_sagittas(std::span<const Point3> points,
         if (k > 0 && edges[k] == edges[k - 1] && start == segments[k - 1][1]) {
             const double cosine = dot(way, before) / std::max(length[k] * length[k - 1], NO_SIZE);
             const double angle = elementary::acos(std::clamp(cosine, -1.0, 1.0));
-            turn[k - 1] = larger_or_nan(turn[k - 1], angle);
+            turn[k - 1] = larger_number(turn[k - 1], angle);
             turn[k] = angle;
         }
         before = way;
@@ -66,15 +66,15 @@ RimLosses rim_losses(const JoinedTriangles& mesh, const Sagittas& sagittas,
         const auto [e, f] = mesh.half_edges[k];
         const Point3 start = mesh.points[corners[e]];
         const double length = norm(mesh.points[corners[next_half_edge(e)]] - start);
-        double slanted = larger_or_nan(distance[e / 3], 0.0);
+        double slanted = larger_number(distance[e / 3], 0.0);
         if (f != NIL) {
             const Point3 m = normal_of(mesh.points, mesh.triangles[e / 3]);
             const Point3 n = normal_of(mesh.points, mesh.triangles[f / 3]);
-            const double size = larger_or_nan(norm(m) * norm(n), NO_SIZE);
-            const double sine = larger_or_nan(norm(cross(m, n)) / size, sharpest);
-            slanted = larger_or_nan(distance[e / 3], distance[f / 3]) / sine;
+            const double size = larger_number(norm(m) * norm(n), NO_SIZE);
+            const double sine = larger_number(norm(cross(m, n)) / size, sharpest);
+            slanted = larger_number(distance[e / 3], distance[f / 3]) / sine;
         }
-        const double off = larger_or_nan(sagitta[k], slanted);
+        const double off = larger_number(sagitta[k], slanted);
         lost.of_edges[k] = length * (off < length || off != off ? off : length);
         if (mesh.uses[k] > 2) continue;
         for (const HalfEdge side : {e, f})

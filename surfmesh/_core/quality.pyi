@@ -221,6 +221,11 @@ def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3
     The first of so many vertices that belongs to none of triangles (m, 3), or -1.
     """
 
+def are_proper(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
+    """
+    Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no three of them twice, and no vertex left out?
+    """
+
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
 
@@ -242,6 +247,11 @@ def face_angles(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
 def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Numbers of the ``count`` largest of values (n,), rising, or of all where there are no more; of equal ones those that come first. NaN is as large as infinity.
+    """
+
+def spread(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[float, float, float, float]:
+    """
+    Least, mean, largest and standard deviation of values (n,); NaN where one is, or none.
     """
 
 def quantile(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: float) -> float:

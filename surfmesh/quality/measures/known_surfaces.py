@@ -48,7 +48,7 @@ class KnownSurfaces:
 
     def middle_uv(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 2) the means of these."""
-        a, b, c = (self.corners.uv_points[k] for k in self.corners.uv_triangles[triangles].T)
+        a, b, c = self.uv(triangles).transpose(1, 0, 2)
         return (a + b + c) / 3.0
 
     def points(self, triangles: Rows) -> NDArray[np.float64]:

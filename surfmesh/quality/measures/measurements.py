@@ -55,6 +55,7 @@ from surfmesh.quality.measures.tolerances import (
     UnattainableTolerance,
     angle_check,
     chord_check,
+    exceeds_chord,
 )
 from surfmesh.quality.measures.topology import Topology, topology
 from surfmesh.quality.measures.torn_edges import torn_edges
@@ -223,6 +224,13 @@ class Measurements:
         if self.deviation_both_ways is None or not np.isfinite(self.tolerances.chord).any():
             return None
         return chord_check(self.tolerances, self.mesh, self.deviation_both_ways)
+
+    @cached_property
+    def beyond_chord(self) -> NDArray[np.bool_] | None:
+        """(m,) which triangles lie farther from their surface than its chord; None: not known."""
+        if self.deviation is None:
+            return None
+        return exceeds_chord(self.tolerances, self.mesh, self.deviation)
 
     @cached_property
     def chord_use(self) -> ChordUse | None:

@@ -125,6 +125,24 @@ def test_sagittas_are_of_arcs_cut_in_segments_of_one_edge():
     assert quality.edge_sagittas(points, segments[::2], np.zeros(2, np.int32)).max() == 0.0
 
 
+@given(seeds)
+def test_proper_triangles_have_three_corners_each_its_own_and_leave_none_out(seed):
+    rng, _, triangles, _ = soup(seed, 12)
+    _, triangles = np.unique(triangles, return_inverse=True)
+    triangles = triangles.reshape(-1, 3).astype(np.int32)
+    count = int(triangles.max()) + 1
+    repeated = len(np.unique(np.sort(triangles, axis=1), axis=0)) < len(triangles)
+    assert quality.are_proper(triangles, count) is not repeated
+    assert not quality.are_proper(triangles, count + 1)  # a vertex of no triangle
+    assert not quality.are_proper(triangles, count - 1)  # a number out of range
+    for wrong in (-1, count, triangles[3, 1]):  # the last: a corner twice
+        odd = triangles.copy()
+        odd[3, 0] = wrong
+        assert not quality.are_proper(odd, count)
+    twice = np.concatenate([triangles, triangles[rng.integers(12, size=1)][:, [2, 0, 1]]])
+    assert not quality.are_proper(twice, count)
+
+
 def test_what_is_out_of_range_is_refused():
     _, points, triangles, table = soup(1)
     wrong = np.array([[0, 3 * len(triangles)]], np.int32)
