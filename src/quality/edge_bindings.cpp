@@ -57,6 +57,19 @@ void bind_lengths(nb::module_& m) {
         "they "
         "are apart.");
     m.def(
+        "size_changes",
+        [](const Vector<double>& apart, const Vector<double>& lengths, double slope, double most) {
+            require_rows(lengths.shape(0), apart.shape(0), "lengths");
+            const nb::gil_scoped_release released;
+            const SizeChanges found =
+                size_changes(rows<double>(apart), rows<double>(lengths), slope, most);
+            return std::tuple(found.steepest, found.largest, found.above);
+        },
+        nb::arg("apart"), nb::arg("lengths"), nb::arg("slope"), nb::arg("most"),
+        "The first edge, -1 for none, along which the quotient of apart (k,) and slope times "
+        "lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above "
+        "``most``.");
+    m.def(
         "edge_extremes",
         [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
             require_indices(std::span(edges.data(), edges.size()), vertices, "edges");

@@ -104,6 +104,22 @@ EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<con
     return found;
 }
 
+SizeChanges size_changes(std::span<const double> apart, std::span<const double> lengths,
+                         double slope, double most) {
+    SizeChanges found{NIL, -1.0, 0};
+    bool have_length = false;
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+        have_length |= lengths[k] > 0.0;
+        const double quotient = apart[k] / (slope * lengths[k]);
+        const double change = std::isfinite(quotient) ? quotient : 0.0;
+        found.above += change > most ? 1 : 0;
+        if (!(change > found.largest)) continue;
+        found.largest = change;
+        found.steepest = static_cast<std::int64_t>(k);
+    }
+    return have_length ? found : SizeChanges{NIL, 0.0, 0};
+}
+
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
                                 std::span<const std::int32_t> faces) {
     Array<EdgeSides> seen, again;

@@ -30,6 +30,19 @@ struct EdgeExtremes {
 EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<const double> lengths,
                            std::size_t vertices);
 
+/// Along which edge sizes change most, over what is allowed, and along how many by more than ``most``
+/// times that.
+struct SizeChanges {
+    std::int64_t steepest;  // the first of these edges; NIL where none has a length
+    double largest;
+    std::int64_t above;
+};
+
+/// apart: by how much sizes at the ends of each edge differ; slope: of that over the length, allowed.
+/// Where the quotient is not finite there is no change.
+SizeChanges size_changes(std::span<const double> apart, std::span<const double> lengths,
+                         double slope, double most);
+
 /// Half-edges for ``mesh_deviation``: each edge within a face once; between two faces from the
 /// first of them, and after all others from the second.
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,

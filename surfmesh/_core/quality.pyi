@@ -177,6 +177,11 @@ def edge_sizes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), orde
     Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) they are apart.
     """
 
+def size_changes(apart: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: float, most: float) -> tuple[int, float, int]:
+    """
+    The first edge, -1 for none, along which the quotient of apart (k,) and slope times lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above ``most``.
+    """
+
 def edge_extremes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each vertex; 0 and infinite where there is none.

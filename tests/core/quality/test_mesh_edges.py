@@ -126,6 +126,18 @@ def test_sagittas_are_of_arcs_cut_in_segments_of_one_edge():
 
 
 @given(seeds)
+def test_changes_of_sizes_are_quotients_that_are_finite(seed):
+    rng = np.random.default_rng(seed)
+    apart = rng.integers(0, 4, 30).astype(float)
+    lengths = rng.choice([0.0, 1.0, 2.0, np.inf, np.nan], 30, p=[0.2, 0.3, 0.3, 0.1, 0.1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        over = np.nan_to_num(apart / (0.5 * lengths), nan=0.0, posinf=0.0)
+    steepest, largest, above = quality.size_changes(apart, lengths, 0.5, 2.5)
+    assert (steepest, largest, above) == (over.argmax(), over.max(), (over > 2.5).sum())
+    assert quality.size_changes(apart, np.zeros(30), 0.5, 2.5)[0] == -1
+
+
+@given(seeds)
 def test_proper_triangles_have_three_corners_each_its_own_and_leave_none_out(seed):
     rng, _, triangles, _ = soup(seed, 12)
     _, triangles = np.unique(triangles, return_inverse=True)
