@@ -11,6 +11,7 @@
 #include "quality/enclosed_volumes.hpp"
 #include "quality/explained_losses.hpp"
 #include "quality/face_creases.hpp"
+#include "quality/far_corners.hpp"
 #include "quality/hidden_bounds.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/mesh_deviation.hpp"
@@ -56,6 +57,33 @@ void bind_surface_points(nb::module_& m) {
         },
         nb::arg("surfaces"), nb::arg("faces"), nb::arg("uv"), nb::arg("order"),
         "Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.");
+}
+
+void bind_far_corners(nb::module_& m) {
+    m.def(
+        "far_corners",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Vector<std::uint8_t>& left_out, double limit) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_mesh(mesh);
+            require_rows(left_out.shape(0), mesh.triangles.size(), "left_out");
+            FarCorners found;
+            {
+                const nb::gil_scoped_release released;
+                found = far_corners(mesh, rows<std::uint8_t>(left_out), limit);
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            return view(found.half_edges);
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("left_out"), nb::arg("limit"),
+        "Corners (k,), 3 t + i for corner i of triangle t, farther than limit from r(u, v): of "
+        "each "
+        "row of uv that a triangle uses the last, but of those of which left_out (m,) is 1.\n\n"
+        "The mesh is as for ``mesh_deviation``.");
 }
 
 void bind_mesh_deviation(nb::module_& m) {
@@ -356,6 +384,7 @@ void bind_figures(nb::module_& m);
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surface_points(m);
+    bind_far_corners(m);
     bind_mesh_deviation(m);
     bind_least_triangles(m);
     bind_surface_distances(m);

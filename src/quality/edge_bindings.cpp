@@ -1,11 +1,14 @@
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
+#include <array>
 #include <tuple>
 
 #include "binding/arrays.hpp"
 #include "binding/released.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/mesh_edges.hpp"
+#include "quality/rim_losses.hpp"
 #include "quality/triangle_fans.hpp"
 
 namespace surfmesh::binding {
@@ -48,6 +51,19 @@ void bind_lengths(nb::module_& m) {
         "Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) "
         "they "
         "are apart.");
+    m.def(
+        "size_changes",
+        [](const Vector<double>& apart, const Vector<double>& lengths, double slope, double most) {
+            require_rows(lengths.shape(0), apart.shape(0), "lengths");
+            const nb::gil_scoped_release released;
+            const SizeChanges found =
+                size_changes(rows<double>(apart), rows<double>(lengths), slope, most);
+            return std::tuple(found.steepest, found.largest, found.above);
+        },
+        nb::arg("apart"), nb::arg("lengths"), nb::arg("slope"), nb::arg("most"),
+        "The first edge, -1 for none, along which the quotient of apart (k,) and slope times "
+        "lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above "
+        "``most``.");
     m.def(
         "edge_extremes",
         [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
@@ -96,27 +112,65 @@ void bind_angles(nb::module_& m) {
         "Numbers (k,) of the edges between two triangles of one face, that face (k,), and the "
         "angle (k,) between their normals, degrees.\n\npoints (n, 3), triangles (m, 3), faces "
         "(m,); half_edges (ne, 2) and uses (ne,) of the edge table.");
+}
+
+void bind_rims(nb::module_& m) {
     m.def(
-        "rim_losses",
-        [](const Points3& points, const VertexTriples& triangles, const SidePairs& half_edges,
-           const Vector<double>& sagitta, const Vector<double>& distance, double sharpest) {
-            require_indices(all_numbers(triangles), points.shape(0), "triangles");
-            require_rows(sagitta.shape(0), half_edges.shape(0), "sagitta");
-            require_rows(distance.shape(0), triangles.shape(0), "distance");
-            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
-            Array<double> lost;
+        "edge_sagittas",
+        [](const Points3& points, const SidePairs& segments, const Numbers& edges) {
+            require_indices(std::span(segments.data(), segments.size()), points.shape(0),
+                            "segments");
+            require_rows(edges.shape(0), segments.shape(0), "edges");
+            const std::span<const std::array<Vertex, 2>> ends{
+                reinterpret_cast<const std::array<Vertex, 2>*>(segments.data()), segments.shape(0)};
+            Array<double> found;
             {
                 const nb::gil_scoped_release released;
-                lost = rim_losses(rows<Point3>(points), rows<TriangleCorners>(triangles), sides,
-                                  rows<double>(sagitta), rows<double>(distance), sharpest);
+                found = edge_sagittas(rows<Point3>(points), ends, rows<std::int32_t>(edges));
             }
-            return view(lost);
+            return view(found);
         },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"), nb::arg("sagitta"),
-        nb::arg("distance"), nb::arg("sharpest"),
-        "Area (k,) that rims lose: length times the larger of sagitta (k,) and the distance (m,) "
-        "of their triangles over the sine between these, not below ``sharpest``.\n\nhalf_edges "
-        "(k, 2): of each rim, -1 in the second column for one that is not.");
+        nb::arg("points"), nb::arg("segments"), nb::arg("edges"),
+        "About twice the sagittas (k,) of segments (k, 2), rows of points (n, 3), by the angles "
+        "between those that follow each other on one of the edges (k,); 0 where one is alone.");
+    m.def(
+        "rim_losses",
+        [](const Points3& points, const VertexTriples& triangles, const Numbers& faces,
+           const SidePairs& half_edges, const Vector<std::int32_t>& uses,
+           const Vector<std::int64_t>& edge, const Vector<double>& sagitta,
+           const Vector<double>& distance, double sharpest, std::size_t count) {
+            require_indices(all_numbers(triangles), points.shape(0), "triangles");
+            require_rows(faces.shape(0), triangles.shape(0), "faces");
+            require_indices(rows<std::int32_t>(faces), count, "faces");
+            require_rows(uses.shape(0), half_edges.shape(0), "uses");
+            require_rows(sagitta.shape(0), edge.shape(0), "sagitta");
+            require_rows(distance.shape(0), triangles.shape(0), "distance");
+            const std::span<const std::int64_t> given = rows<std::int64_t>(edge);
+            for (const std::int64_t row : given)
+                if (row < NIL || row >= static_cast<std::int64_t>(uses.shape(0)))
+                    throw nb::value_error("edge has a row that is out of range");
+            const JoinedTriangles mesh{
+                rows<Point3>(points), rows<TriangleCorners>(triangles), rows<std::int32_t>(faces),
+                half_edge_pairs(half_edges, triangles.shape(0)), rows<std::int32_t>(uses)};
+            RimLosses lost;
+            {
+                const nb::gil_scoped_release released;
+                lost = rim_losses(mesh, {given, rows<double>(sagitta)}, rows<double>(distance),
+                                  sharpest, count);
+            }
+            return std::pair(view(lost.of_edges), view(lost.of_faces));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("faces"), nb::arg("half_edges"),
+        nb::arg("uses"), nb::arg("edge"), nb::arg("sagitta"), nb::arg("distance"),
+        nb::arg("sharpest"), nb::arg("count"),
+        "Area that rims lose: of edges (ne,), 0 where one is none, and of ``count`` faces, of "
+        "edges "
+        "of one or two triangles. It is length times the larger of sagitta and the distance (m,) "
+        "of "
+        "their triangles over the sine between these, not below ``sharpest``, at most the length."
+        "\n\nRims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for "
+        "none; points (n, 3), triangles (m, 3) of faces (m,), half_edges (ne, 2) and uses (ne,) of "
+        "the edge table.");
 }
 
 void bind_fans(nb::module_& m) {
@@ -161,6 +215,15 @@ void bind_fans(nb::module_& m) {
         nb::arg("triangles"), nb::arg("vertices"),
         "The first of so many vertices that belongs to none of triangles (m, 3), or -1.");
     m.def(
+        "are_proper",
+        [](const VertexTriples& triangles, std::size_t vertices) {
+            const nb::gil_scoped_release released;
+            return are_proper(rows<TriangleCorners>(triangles), vertices);
+        },
+        nb::arg("triangles"), nb::arg("vertices"),
+        "Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no "
+        "three of them twice, and no vertex left out?");
+    m.def(
         "has_repeated_triangles",
         [](const VertexTriples& triangles, std::size_t vertices) {
             require_indices(all_numbers(triangles), vertices, "triangles");
@@ -176,6 +239,7 @@ void bind_fans(nb::module_& m) {
 void bind_mesh_edges(nb::module_& m) {
     bind_lengths(m);
     bind_angles(m);
+    bind_rims(m);
     bind_fans(m);
 }
 

@@ -11,6 +11,7 @@
 #include "quality/largest_values.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/solid_boxes.hpp"
+#include "quality/spread.hpp"
 
 namespace surfmesh::binding {
 
@@ -140,6 +141,15 @@ void bind_order(nb::module_& m) {
         nb::arg("values"), nb::arg("count"),
         "Numbers of the ``count`` largest of values (n,), rising, or of all where there are no "
         "more; of equal ones those that come first. NaN is as large as infinity.");
+    m.def(
+        "spread",
+        [](const Vector<double>& values) {
+            const nb::gil_scoped_release released;
+            const Spread found = spread_of(rows<double>(values));
+            return std::tuple(found.least, found.mean, found.largest, found.deviation);
+        },
+        nb::arg("values"),
+        "Least, mean, largest and standard deviation of values (n,); NaN where one is, or none.");
     m.def(
         "quantile",
         [](const Vector<double>& values, double fraction) {

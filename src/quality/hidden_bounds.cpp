@@ -150,7 +150,7 @@ class Search {
         const ParameterBox domain = surface_.domain();
         const double cells = 1 << bits;
         const auto place = [cells](double x, double first, double last) {
-            const double at = std::floor((x - first) / (last - first) * cells);
+            const double at = (x - first) / (last - first) * cells;
             return static_cast<std::uint32_t>(at > 0.0 ? std::min(at, cells - 1.0) : 0.0);
         };
         Array<std::uint32_t> cell(count);

@@ -13,15 +13,6 @@
 namespace surfmesh {
 namespace {
 
-constexpr double NO_SIZE = std::numeric_limits<double>::min();  // no division by zero
-
-/// The larger of two, NaN where one of them is.
-double larger_number(double a, double b) { return b > a || b != b ? b : a; }
-
-Point3 normal_of(std::span<const Point3> points, const TriangleCorners& t) {
-    return cross(points[t.b] - points[t.a], points[t.c] - points[t.a]);
-}
-
 /// Corner e % 3 of triangle e / 3.
 Vertex corner_of_half_edge(std::span<const TriangleCorners> triangles, HalfEdge e) {
     return corners_in_a_row(triangles)[e];
@@ -113,6 +104,22 @@ EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<con
     return found;
 }
 
+SizeChanges size_changes(std::span<const double> apart, std::span<const double> lengths,
+                         double slope, double most) {
+    SizeChanges found{NIL, -1.0, 0};
+    bool have_length = false;
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+        have_length |= lengths[k] > 0.0;
+        const double quotient = apart[k] / (slope * lengths[k]);
+        const double change = std::isfinite(quotient) ? quotient : 0.0;
+        found.above += change > most ? 1 : 0;
+        if (!(change > found.largest)) continue;
+        found.largest = change;
+        found.steepest = static_cast<std::int64_t>(k);
+    }
+    return have_length ? found : SizeChanges{NIL, 0.0, 0};
+}
+
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
                                 std::span<const std::int32_t> faces) {
     Array<EdgeSides> seen, again;
@@ -146,29 +153,6 @@ AnglesWithinFaces angles_within_faces(std::span<const Point3> points,
     }
     found.degrees = degrees.done();
     return found;
-}
-
-Array<double> rim_losses(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
-                         std::span<const EdgeTable::Sides> sides, std::span<const double> sagitta,
-                         std::span<const double> distance, double sharpest) {
-    Array<double> lost(sides.size());
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-        const auto [e, f] = sides[k];
-        const Point3 start = points[corner_of_half_edge(triangles, e)];
-        const double length =
-            norm(points[corner_of_half_edge(triangles, next_half_edge(e))] - start);
-        double slanted = larger_number(distance[e / 3], 0.0);
-        if (f != NIL) {
-            const Point3 m = normal_of(points, triangles[e / 3]);
-            const Point3 n = normal_of(points, triangles[f / 3]);
-            const double size = larger_number(norm(m) * norm(n), NO_SIZE);
-            const double sine = larger_number(norm(cross(m, n)) / size, sharpest);
-            slanted = larger_number(distance[e / 3], distance[f / 3]) / sine;
-        }
-        const double off = larger_number(sagitta[k], slanted);
-        lost[k] = length * (off < length || off != off ? off : length);
-    }
-    return lost;
 }
 
 }  // namespace surfmesh

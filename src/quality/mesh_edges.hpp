@@ -1,5 +1,5 @@
-// Edges of a finished mesh: their lengths, from which faces they are looked at, the angles across
-// them, and what the rims of faces lose.
+// Edges of a finished mesh: their lengths, from which faces they are looked at, and the angles
+// across them.
 //
 // In: points, triangles and the edge table (space/edge_table.hpp): the ends of each edge, the first
 // two half-edges along it, by how many triangles it is used. Nothing changes.
@@ -30,6 +30,19 @@ struct EdgeExtremes {
 EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<const double> lengths,
                            std::size_t vertices);
 
+/// Along which edge sizes change most, over what is allowed, and along how many by more than ``most``
+/// times that.
+struct SizeChanges {
+    std::int64_t steepest;  // the first of these edges; NIL where none has a length
+    double largest;
+    std::int64_t above;
+};
+
+/// apart: by how much sizes at the ends of each edge differ; slope: of that over the length, allowed.
+/// Where the quotient is not finite there is no change.
+SizeChanges size_changes(std::span<const double> apart, std::span<const double> lengths,
+                         double slope, double most);
+
 /// Half-edges for ``mesh_deviation``: each edge within a face once; between two faces from the
 /// first of them, and after all others from the second.
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
@@ -47,19 +60,5 @@ AnglesWithinFaces angles_within_faces(std::span<const Point3> points,
                                       std::span<const std::int32_t> faces,
                                       std::span<const EdgeTable::Sides> half_edges,
                                       std::span<const std::int32_t> uses);
-
-/// Area that each rim may lose: its length times how far its curve may lie from it, at most its
-/// length.
-///
-/// Where faces meet at an angle their common edge lies farther from its chord than they do:
-///
-///       face  |  /        the distance of the chord from one face over the sine
-///             | /  edge   of the angle, not below ``sharpest``, is that from the
-///       chord o'          edge within the other
-///
-/// sides: of each rim, NIL for one that is not; sagitta: of each; distance: of the triangles.
-Array<double> rim_losses(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
-                         std::span<const EdgeTable::Sides> sides, std::span<const double> sagitta,
-                         std::span<const double> distance, double sharpest);
 
 }  // namespace surfmesh

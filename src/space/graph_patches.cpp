@@ -50,6 +50,10 @@ class PatchSearch {
           grown_(triangles.size(), NIL) {}
 
     Array<std::int32_t> run() {
+        if (is_one_graph()) {
+            patch_.fill(0);
+            return std::move(patch_);
+        }
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             if (grown_[t] != NIL) continue;
             const Point3 n = normal(t);
@@ -68,14 +72,36 @@ class PatchSearch {
         return cross(points_[k.b] - points_[k.a], points_[k.c] - points_[k.a]);
     }
 
-    /// Does a triangle face the eye, surely and not too steeply?
+    /// Is an open surface a patch as a whole, however steep? Over the plane that the sum of its
+    /// normals says, no triangle has to be grown, and its rim is where there is nothing beside.
+    bool is_one_graph() {
+        if (std::find(twins_.begin(), twins_.end(), NIL) == twins_.end()) return false;
+        Point3 sum{0.0, 0.0, 0.0};
+        for (std::size_t t = 0; t < triangles_.size(); ++t) sum = sum + normal(t);
+        const View view = view_of(sum);
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            if (!turns_to(t, view)) return false;
+        rim_.clear();
+        for (std::size_t e = 0; e < twins_.size(); ++e)
+            if (twins_[e] == NIL)
+                add_to_rim(static_cast<std::int32_t>(e / 3), static_cast<std::int32_t>(e % 3),
+                           view);
+        return is_simple_rim(rim_);
+    }
+
+    /// Does a triangle turn towards the eye? Exact.
+    [[nodiscard]] bool turns_to(std::size_t t, const View& view) const {
+        const TriangleCorners& k = triangles_[t];
+        return orient(view(points_[k.a]), view(points_[k.b]), view(points_[k.c])) > 0.0;
+    }
+
+    /// Does it so not too steeply?
     [[nodiscard]] bool faces(std::size_t t, const View& view) const {
         const Point3 n = normal(t);
         const double towards = view.towards(n);
         if (!(towards > 0.0 && towards * towards >= ALONG_AXIS * ALONG_AXIS * dot(n, n)))
             return false;
-        const TriangleCorners& k = triangles_[t];
-        return orient(view(points_[k.a]), view(points_[k.b]), view(points_[k.c])) > 0.0;
+        return turns_to(t, view);
     }
 
     /// Fill ``members_``, across edges, with triangles that face the eye and are in no patch, and

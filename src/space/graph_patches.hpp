@@ -6,8 +6,9 @@
 //     \ / \ /          round nothing twice, there is one, and no two triangles have a point in
 //      o---o   rim     common but a corner or a side that they share.
 //
-// A patch is grown from triangle to triangle across edges of two that run along it in opposite
-// directions; its rim is swept once, edges in their order over the sweep line, by exact predicates.
+// An open surface may be one as a whole, over the plane that the sum of its normals says. Otherwise
+// a patch is grown from triangle to triangle across edges of two that run along it in opposite
+// directions. Its rim is swept once, edges in their order over the sweep line, by exact predicates.
 // A patch that is not proved is none: whoever asks compares its triangles pair by pair.
 //
 // In: points and triangles, and the half-edges beside each other. Nothing changes. Normals of half a

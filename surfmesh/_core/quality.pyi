@@ -16,6 +16,13 @@ def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(s
     Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.
     """
 
+def far_corners(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Corners (k,), 3 t + i for corner i of triangle t, farther than limit from r(u, v): of each row of uv that a triangle uses the last, but of those of which left_out (m,) is 1.
+
+    The mesh is as for ``mesh_deviation``.
+    """
+
 def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], in_plane: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float32], dict(shape=(None,))]]:
     """
     Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing.
@@ -170,6 +177,11 @@ def edge_sizes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), orde
     Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) they are apart.
     """
 
+def size_changes(apart: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: float, most: float) -> tuple[int, float, int]:
+    """
+    The first edge, -1 for none, along which the quotient of apart (k,) and slope times lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above ``most``.
+    """
+
 def edge_extremes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each vertex; 0 and infinite where there is none.
@@ -187,11 +199,16 @@ def angles_within_faces(points: Annotated[NDArray[numpy.float64], dict(shape=(No
     points (n, 3), triangles (m, 3), faces (m,); half_edges (ne, 2) and uses (ne,) of the edge table.
     """
 
-def rim_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], sagitta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sharpest: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+def edge_sagittas(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
-    Area (k,) that rims lose: length times the larger of sagitta (k,) and the distance (m,) of their triangles over the sine between these, not below ``sharpest``.
+    About twice the sagittas (k,) of segments (k, 2), rows of points (n, 3), by the angles between those that follow each other on one of the edges (k,); 0 where one is alone.
+    """
 
-    half_edges (k, 2): of each rim, -1 in the second column for one that is not.
+def rim_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sagitta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sharpest: float, count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Area that rims lose: of edges (ne,), 0 where one is none, and of ``count`` faces, of edges of one or two triangles. It is length times the larger of sagitta and the distance (m,) of their triangles over the sine between these, not below ``sharpest``, at most the length.
+
+    Rims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for none; points (n, 3), triangles (m, 3) of faces (m,), half_edges (ne, 2) and uses (ne,) of the edge table.
     """
 
 def triangle_fans(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
@@ -207,6 +224,11 @@ def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 
 def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> int:
     """
     The first of so many vertices that belongs to none of triangles (m, 3), or -1.
+    """
+
+def are_proper(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
+    """
+    Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no three of them twice, and no vertex left out?
     """
 
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
@@ -230,6 +252,11 @@ def face_angles(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
 def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Numbers of the ``count`` largest of values (n,), rising, or of all where there are no more; of equal ones those that come first. NaN is as large as infinity.
+    """
+
+def spread(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[float, float, float, float]:
+    """
+    Least, mean, largest and standard deviation of values (n,); NaN where one is, or none.
     """
 
 def quantile(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: float) -> float:

@@ -11,9 +11,10 @@ def first_broken(
     mid_points: FloatArray | None, corners: Parametrisation | None, links: ModelLinks,
 ) -> str | None:  # fmt: skip
     """The first broken invariant of a mesh, or None; see ``SurfaceMesh.broken_invariant``."""
-    from surfmesh._core.quality import unused_vertex  # late, as in ``connect``
+    from surfmesh._core.quality import are_proper  # late, as in ``connect``
 
-    outside = _outside("triangles", triangles, len(points))
+    proper = are_proper(triangles, len(points))
+    outside = None if proper else _outside("triangles", triangles, len(points))
     if outside is None and corners is not None:
         outside = _outside("uv_triangles", corners.uv_triangles, len(corners.uv_points))
     if outside is not None:
@@ -27,22 +28,30 @@ def first_broken(
     if sizes is not None and len(sizes) and sizes.min() <= 0:
         bad = int(sizes.argmin())
         return f"sizes[{bad}] = {sizes[bad]} is not positive"
-    a, b, c = triangles.T
-    repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
-    if len(repeated):
-        bad = int(repeated[0])
-        return f"triangle {bad} = {triangles[bad].tolist()} repeats a corner"
-    twin = _first_duplicate(triangles, len(points))
-    if twin is not None:
-        return f"triangles {twin[0]} and {twin[1]} have the same corners"
-    unused = unused_vertex(triangles, len(points))
-    if unused >= 0:
-        return f"vertex {unused} belongs to no triangle"
+    improper = None if proper else _first_improper(triangles, len(points))
+    if improper is not None:
+        return improper
     if links.surfaces and len(links.face_ids):
         low, high, count = links.face_ids.min(), links.face_ids.max(), len(links.surfaces)
         if low < 0 or high >= count:
             return f"face_ids run from {low} to {high}, surfaces are {count}"
     return None
+
+
+def _first_improper(triangles: Int32Array, vertices: int) -> str | None:
+    """Of triangles whose numbers are in range."""
+    from surfmesh._core.quality import unused_vertex  # late, as in ``connect``
+
+    a, b, c = triangles.T
+    repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
+    if len(repeated):
+        bad = int(repeated[0])
+        return f"triangle {bad} = {triangles[bad].tolist()} repeats a corner"
+    twin = _first_duplicate(triangles, vertices)
+    if twin is not None:
+        return f"triangles {twin[0]} and {twin[1]} have the same corners"
+    unused = unused_vertex(triangles, vertices)
+    return f"vertex {unused} belongs to no triangle" if unused >= 0 else None
 
 
 def _outside(name: str, indices: Int32Array, limit: int) -> str | None:

@@ -9,7 +9,7 @@ from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.dihedral import largest_angle
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import Point
-from surfmesh.quality.measures.tolerances import exceeds_angle, exceeds_chord
+from surfmesh.quality.measures.tolerances import exceeds_angle
 from surfmesh.quality.measures.unseen import UnseenPlace
 
 
@@ -38,8 +38,8 @@ class DeviationFigures(Part):
             measured.deviation, measured.surface_deviation, measured.tolerances,
         )  # fmt: skip
         above = None
-        if fit is not None and np.isfinite(tolerances.chord).any():
-            above = float(np.mean(exceeds_chord(tolerances, measured.mesh, fit)))
+        if measured.beyond_chord is not None and np.isfinite(tolerances.chord).any():
+            above = float(np.mean(measured.beyond_chord))
         sizing = measured.mesh.sizing
         two_sided = None if fit is None or back is None else max(fit.largest, back.largest)
         return cls(

@@ -1,11 +1,12 @@
 """A part of the report: a few figures on one subject."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
+
+from surfmesh._core.quality import spread
 
 Values = NDArray[np.float64]
 
@@ -15,6 +16,15 @@ class Part:
     """In JSON its figures stand in the report itself, each by its own name."""
 
 
-def over(measure: Callable[[Values], Any], values: Values) -> float:
-    """A mean or an extreme of values (k,); nan where there are none."""
-    return float(measure(values)) if len(values) else float("nan")
+class Spread(NamedTuple):
+    """Of values: nan where there are none."""
+
+    least: float
+    mean: float
+    largest: float
+    deviation: float  # standard
+
+    @classmethod
+    def of(cls, values: Values) -> Self:
+        """values: (k,)"""
+        return cls(*spread(values))

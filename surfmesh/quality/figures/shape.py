@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh._core.quality import quantile
-from surfmesh.quality.figures.part import Part, over
+from surfmesh.quality.figures.part import Part, Spread
 from surfmesh.quality.measures.folds import FoldedTriangle, most_folded
 from surfmesh.quality.measures.measurements import LISTED, Measurements
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
@@ -37,24 +37,26 @@ class ShapeFigures(Part):
         """nan where there is no triangle."""
         shape, metric = measured.shapes, measured.metric_alpha
         narrow = narrow_triangles(measured.mesh, shape.alpha)
+        alpha, radius_ratio = Spread.of(shape.alpha), Spread.of(shape.radius_ratio)
+        metric_alpha = None if metric is None else Spread.of(metric)
         return cls(
-            alpha_mean=over(np.mean, shape.alpha),
-            alpha_p01=over(lambda alpha: quantile(alpha, 0.01), shape.alpha),
-            alpha_min=over(np.min, shape.alpha),
+            alpha_mean=alpha.mean,
+            alpha_p01=quantile(shape.alpha, 0.01) if len(shape.alpha) else float("nan"),
+            alpha_min=alpha.least,
             narrow_triangles=narrow.number,
             alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
             alpha_min_elsewhere=narrow.alpha_min_elsewhere,
-            alpha_metric_mean=None if metric is None else over(np.mean, metric),
-            alpha_metric_min=None if metric is None else over(np.min, metric),
-            radius_ratio_mean=over(np.mean, shape.radius_ratio),
-            radius_ratio_min=over(np.min, shape.radius_ratio),
-            min_angle_deg=over(np.min, shape.min_angle),
-            max_angle_deg=over(np.max, shape.max_angle),
+            alpha_metric_mean=None if metric_alpha is None else metric_alpha.mean,
+            alpha_metric_min=None if metric_alpha is None else metric_alpha.least,
+            radius_ratio_mean=radius_ratio.mean,
+            radius_ratio_min=radius_ratio.least,
+            min_angle_deg=Spread.of(shape.min_angle).least,
+            max_angle_deg=Spread.of(shape.max_angle).largest,
             degenerate=int(np.count_nonzero(~(shape.alpha > DEGENERATE))),
             jacobian_min=(
                 None
                 if measured.curved_shapes is None
-                else over(np.min, measured.curved_shapes.jacobian)
+                else Spread.of(measured.curved_shapes.jacobian).least
             ),
         )
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.quality.figures.part import Part, over
+from surfmesh.quality.figures.part import Part, Spread
 from surfmesh.quality.measures.lengths import QUASI_UNIT
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import Point
@@ -40,15 +40,17 @@ class SizeFigures(Part):
         if metric is not None and len(metric):
             low, high = QUASI_UNIT
             conform = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
+        edge = Spread.of(lengths)
+        length = None if metric is None else Spread.of(metric)
         return cls(
-            edge_min=over(np.min, lengths),
-            edge_mean=over(np.mean, lengths),
-            edge_max=over(np.max, lengths),
+            edge_min=edge.least,
+            edge_mean=edge.mean,
+            edge_max=edge.largest,
             quasi_unit_share=conform,
-            length_mean=None if metric is None else over(np.mean, metric),
-            length_std=None if metric is None else over(np.std, metric),
-            length_min=None if metric is None else over(np.min, metric),
-            length_max=None if metric is None else over(np.max, metric),
+            length_mean=None if length is None else length.mean,
+            length_std=None if length is None else length.deviation,
+            length_min=None if length is None else length.least,
+            length_max=None if length is None else length.largest,
             growth_max=measured.growth.largest,
             growth_p99=measured.growth.p99,
             growth=None if sizing is None else sizing.growth,

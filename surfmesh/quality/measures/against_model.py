@@ -4,7 +4,7 @@ A surface has one or two triangles along each edge and one fan of them at each v
 its model says otherwise: sheets that meet in a T, boxes that share an edge or a corner.
 """
 
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,20 +35,29 @@ def unexpected(mesh: SurfaceMesh, topo: Topology) -> Unexpected:
     model = _Model.of(mesh)
     if model is None:
         return Unexpected(crowded, none, pinched, none, clashing, none, False)
-    uses, models = model.uses(mesh)
     table = mesh.connectivity
-    crowded = crowded[table.uses[crowded] > np.where(models[crowded] > 0, uses[crowded], 2)]
+    row, used = model.uses(mesh)
+    uses = np.bincount(row, used, len(mesh.edges))
+    crowded = crowded[table.uses[crowded] > np.where(_often(row, crowded), uses[crowded], 2)]
     bare = np.flatnonzero(table.uses < uses)
-    bare = bare[models[bare] == 1]
-    fans, vertices = model.fans(len(mesh.points))
+    bare = bare[_often(row, bare) == 1]  # not two, where a face between them has vanished
+    vertex, of_model = model.fans()
+    fans = np.bincount(vertex, of_model, len(mesh.points))
     pinched = pinched[topo.fans[pinched] > fans[pinched]]
     joined = np.flatnonzero(topo.fans < fans)
-    joined = joined[vertices[joined] == 1]
+    joined = joined[_often(vertex, joined) == 1]
     sheets = np.zeros(len(clashing), bool)
-    if mesh.solid_ids is not None:
+    if mesh.solid_ids is not None and len(clashing):
         beside = mesh.solid_ids[table.half_edges[clashing] // 3]
-        sheets = (beside < 0).all(axis=(1, 2)) & (models[clashing] > 0)
+        sheets = (beside < 0).all(axis=(1, 2)) & (_often(row, clashing) > 0)
     return Unexpected(crowded, bare, pinched, joined, clashing[~sheets], clashing[sheets], True)
+
+
+def _often(places: NDArray[np.integer[Any]], some: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(k,) how often each of ``some`` (k,) is among ``places``: 0 where the model has nothing."""
+    if not len(some):
+        return some
+    return np.bincount(places, minlength=int(some.max()) + 1)[some]
 
 
 class _Model(NamedTuple):
@@ -70,20 +79,16 @@ class _Model(NamedTuple):
             return None
         return cls(links, facts, vertices)
 
-    def uses(self, mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """How often faces use each edge of the mesh (ne,), and how many edges of the model lie
-        there (ne,): 0 within a face, two where a face between them has vanished."""
-        row = mesh.edge_segment_rows
-        there, count = row >= 0, len(mesh.edges)
-        uses = np.array(self.facts.edge_uses, np.int64)[self.links.edge_ids[there]]
-        total = np.bincount(row[there], uses, count).astype(np.int64)
-        return total, np.bincount(row[there], minlength=count)
+    def uses(self, mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """The rows (k,) of edges of the mesh at each of the model, and how often faces use it."""
+        row, edge = mesh.edge_segment_rows, self.links.edge_ids
+        if row.min(initial=0) < 0:
+            row, edge = row[row >= 0], edge[row >= 0]
+        return row, np.array(self.facts.edge_uses, float)[edge]
 
-    def fans(self, count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Fans at each of ``count`` vertices of the mesh, and how many vertices of the model stand
-        there: where tiny edges have joined some, one stands for all."""
-        fans = np.array(self.facts.vertex_fans, np.int64)[: len(self.vertices)]
+    def fans(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        """The vertices (k,) of the mesh at each of the model, and the fans that this has: where
+        tiny edges have joined some, one stands for all."""
+        fans = np.array(self.facts.vertex_fans, float)[: len(self.vertices)]
         kept = (self.vertices >= 0) & (fans > 0)
-        at = self.vertices[kept]
-        total = np.bincount(at, fans[kept], count).astype(np.int64)
-        return total, np.bincount(at, minlength=count)
+        return self.vertices[kept], fans[kept]

@@ -59,41 +59,28 @@ def _bends(mesh: SurfaceMesh, mid_points: NDArray[np.float64]) -> NDArray[np.flo
 
 def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[np.float64]:
     """(f,) length times sagitta along the rims of each face."""
-    table = mesh.connectivity
-    sagitta = np.zeros(len(table.edges))
-    rim = table.uses == 1
-    links = mesh.edge_links
+    table, links = mesh.connectivity, mesh.edge_links
     if links is None or not len(links.edge_segments):
-        sagitta[rim] = _rim_sagittas(mesh, rim)
+        rows = np.flatnonzero(table.uses == 1)
+        sagitta = _rim_sagittas(mesh, rows)
     else:
-        row = mesh.edge_segment_rows
-        on = row >= 0
-        np.maximum.at(sagitta, row[on], edge_sagittas(mesh, links)[on])
-        rim[row[on]] = True
-    lost = quality.rim_losses(
-        mesh.points, mesh.triangles, table.half_edges[rim], sagitta[rim], by_triangle, SHARPEST
-    )
-    half_edge, row = _all_half_edges(mesh, np.flatnonzero(rim))
-    faces = mesh.face_ids[half_edge // 3]
-    return np.bincount(faces, lost[row], int(mesh.face_ids.max(initial=0)) + 1).astype(float)
+        rows, sagitta = mesh.edge_segment_rows, edge_sagittas(mesh, links)
+    count = int(mesh.face_ids.max(initial=0)) + 1
+    of_edges, of_faces = quality.rim_losses(
+        mesh.points, mesh.triangles, mesh.face_ids, table.half_edges, table.uses, rows, sagitta,
+        by_triangle, SHARPEST, count,
+    )  # fmt: skip
+    crowded = np.flatnonzero(table.uses > 2)
+    if len(crowded):
+        half_edge, row = half_edges_along(mesh, mesh.edges[crowded])
+        faces = mesh.face_ids[half_edge // 3]
+        of_faces += np.bincount(faces, of_edges[crowded[row]], count)
+    return of_faces
 
 
-def _all_half_edges(
-    mesh: SurfaceMesh, edges: NDArray[np.intp]
-) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
-    """All half-edges along some edges, and the places of these in ``edges``."""
-    table = mesh.connectivity
-    crowded = np.flatnonzero(table.uses[edges] > 2)
-    more, row = half_edges_along(mesh, mesh.edges[edges[crowded]])
-    pairs = table.half_edges[edges].astype(np.int64)
-    pairs[crowded] = -1
-    place, side = np.nonzero(pairs >= 0)
-    return np.concatenate([pairs[place, side], more]), np.concatenate([place, crowded[row]])
-
-
-def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """(k,) about twice the sagittas of rims, by the angles at their ends."""
-    vertices, ends = np.unique(mesh.edges[rim], return_inverse=True)
+def _rim_sagittas(mesh: SurfaceMesh, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+    """(k,) about twice the sagittas of edges that are rims, by the angles at their ends."""
+    vertices, ends = np.unique(mesh.edges[rows], return_inverse=True)
     ends = ends.reshape(-1, 2)
     places = mesh.points[vertices]
     way = places[ends[:, 1]] - places[ends[:, 0]]

@@ -14,7 +14,6 @@ from surfmesh.quality.measures.face_rows import (
     FaceRows,
 )
 from surfmesh.quality.measures.measurements import Measurements
-from surfmesh.quality.measures.tolerances import exceeds_chord
 
 
 def by_face(measured: Measurements) -> FaceRows:
@@ -59,10 +58,9 @@ def by_face(measured: Measurements) -> FaceRows:
 def _deviations(
     measured: Measurements, faces: NDArray[np.int32], count: int
 ) -> FaceDeviations | None:
-    fit, folds = measured.deviation, measured.folds
-    if fit is None or folds is None:
+    fit, folds, far = measured.deviation, measured.folds, measured.beyond_chord
+    if fit is None or folds is None or far is None:
         return None
-    far = exceeds_chord(measured.tolerances, measured.mesh, fit)
     largest, worst, square, above = core.face_distances(
         faces, fit.by_triangle, fit.mean_square, measured.shapes.area, far.view(np.uint8), count
     )

@@ -36,14 +36,14 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
     mesh = known.mesh
     if mesh.sizes is None or not np.isfinite(tolerances.chord).any():
         return None
-    step = -(-len(mesh.triangles) // SAMPLES)
-    chosen = np.arange(0, len(mesh.triangles), step)
-    a, b, c = (mesh.sizes[corner] for corner in mesh.triangles[chosen].T)
+    every = slice(None, None, -(-len(mesh.triangles) // SAMPLES))
+    chosen = np.arange(len(mesh.triangles))[every]
+    a, b, c = mesh.sizes.take(np.ascontiguousarray(mesh.triangles[every].T))
     target = (a + b + c) / 3.0
     decided = np.zeros(len(chosen), bool)
-    faces = mesh.face_ids[chosen]
+    faces = mesh.face_ids[every]
     chord = tolerances.at(tolerances.chord, faces)
-    here = np.flatnonzero((known.in_plane[chosen] == 0) & (chord > 0.0) & np.isfinite(chord))
+    here = np.flatnonzero((known.in_plane[every] == 0) & (chord > 0.0) & np.isfinite(chord))
     if len(mesh.surfaces) > 1:
         here = here[np.argsort(faces[here], kind="stable")]
     if len(here):

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.accuracy.folds import FOLDED, INVERTED, cosines_with_surface, sharp_radius
-from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
@@ -62,7 +61,7 @@ def folds(known: KnownSurfaces, cosine: NDArray[np.float32]) -> Folds:
     by_surface = np.zeros(len(cosine), bool)
     off_surface, misplaced = np.zeros(len(cosine)), np.zeros(len(cosine))
     nearest = 0.0
-    radius = sharp_radius(None if mesh.sizing is None else mesh.sizing.chord, diagonal(mesh.points))
+    radius = sharp_radius(None if mesh.sizing is None else mesh.sizing.chord, known.diagonal)
     bad = np.flatnonzero(folded)
     for face in np.unique(mesh.face_ids[bad]) if len(bad) else ():
         some = bad[mesh.face_ids[bad] == face]

@@ -17,6 +17,7 @@ from surfmesh._core.quality import (
 )
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -47,7 +48,7 @@ class KnownSurfaces:
 
     def middle_uv(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 2) the means of these."""
-        a, b, c = (self.corners.uv_points[k] for k in self.corners.uv_triangles[triangles].T)
+        a, b, c = self.uv(triangles).transpose(1, 0, 2)
         return (a + b + c) / 3.0
 
     def points(self, triangles: Rows) -> NDArray[np.float64]:
@@ -76,6 +77,11 @@ class KnownSurfaces:
         """Only the triangles that are asked for are handed on: every one of them is checked."""
         rows = np.arange(len(triangle), dtype=np.int32)
         return interpolate(values, triangles[triangle], rows, rule, weights)
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Of the box around the vertices."""
+        return diagonal(self.mesh.points)
 
     @cached_property
     def core_surfaces(self) -> list[CoreSurface]:

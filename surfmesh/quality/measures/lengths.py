@@ -107,13 +107,19 @@ def size_growth(
     mesh: SurfaceMesh, lengths: NDArray[np.float64], sizes: EdgeSizes | None, slope: float
 ) -> SizeGrowth | None:
     """Growth of the target sizes over the edges of the mesh; None as for ``growth_of_edges``."""
-    over = growth_of_edges(mesh, lengths, sizes, slope)
-    if over is None:
+    corners, most = mesh.parametrisation, 1.0 + GROWTH_SLACK
+    if sizes is not None and slope > 0.0 and (corners is None or corners.metric_root_3d is None):
+        worst, largest, above = quality.size_changes(sizes.apart, lengths, slope, most)
+    else:
+        over = growth_of_edges(mesh, lengths, sizes, slope)
+        worst = -1 if over is None else int(over.argmax())
+        largest, above = (
+            (0.0, 0) if over is None else (float(over[worst]), int(np.count_nonzero(over > most)))
+        )
+    if worst < 0:
         return None
-    worst = int(over.argmax())
     place = mesh.points[mesh.edges[worst]].mean(axis=0)
-    fraction = float(np.count_nonzero(over > 1.0 + GROWTH_SLACK) / len(over))
-    return SizeGrowth(fraction, float(over[worst]), as_point(place))
+    return SizeGrowth(above / len(lengths), largest, as_point(place))
 
 
 def growth_of_edges(

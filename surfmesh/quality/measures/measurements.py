@@ -55,6 +55,7 @@ from surfmesh.quality.measures.tolerances import (
     UnattainableTolerance,
     angle_check,
     chord_check,
+    exceeds_chord,
 )
 from surfmesh.quality.measures.topology import Topology, topology
 from surfmesh.quality.measures.torn_edges import torn_edges
@@ -225,6 +226,13 @@ class Measurements:
         return chord_check(self.tolerances, self.mesh, self.deviation_both_ways)
 
     @cached_property
+    def beyond_chord(self) -> NDArray[np.bool_] | None:
+        """(m,) which triangles lie farther from their surface than its chord; None: not known."""
+        if self.deviation is None:
+            return None
+        return exceeds_chord(self.tolerances, self.mesh, self.deviation)
+
+    @cached_property
     def chord_use(self) -> ChordUse | None:
         """How much of the chord is used."""
         if self.known is None or self.deviation is None:
@@ -289,15 +297,23 @@ class Measurements:
         curved = 0.0 if self.curved_shapes is None else float(self.curved_shapes.volume.sum())
         return enclosed_volume(self.mesh) + curved
 
+    @property
+    def has_exact_figures(self) -> bool:
+        """Are exact areas or volumes known, and the deviation that explains what is lost?"""
+        found = self.deviation
+        return (
+            found is not None
+            and not self.broken
+            and bool(np.isfinite(found.largest))
+            and is_known(self.mesh)
+        )
+
     @cached_property
     def explained(self) -> Explained | None:
         """How much area and volume the deviation explains, where exact ones are known."""
-        found = self.deviation
-        if found is None or self.broken or not np.isfinite(found.largest):
+        if self.deviation is None or not self.has_exact_figures:
             return None
-        if not is_known(self.mesh):
-            return None
-        return explained(self.mesh, self.shapes.area, found.by_triangle)
+        return explained(self.mesh, self.shapes.area, self.deviation.by_triangle)
 
     @cached_property
     def crosses_itself(self) -> bool:

@@ -31,7 +31,8 @@ def in_narrow_faces(mesh: SurfaceMesh) -> NDArray[np.bool_]:
 
 def narrow_triangles(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NarrowTriangles:
     """alpha: (m,) of all triangles."""
-    others = alpha if mesh.narrow_faces is None else alpha[~in_narrow_faces(mesh)]
+    faces = mesh.narrow_faces
+    others = alpha if faces is None or not faces.any() else alpha[~in_narrow_faces(mesh)]
     count = len(alpha) - len(others)
     if not len(others):
         return NarrowTriangles(count, None, None)
@@ -40,6 +41,7 @@ def narrow_triangles(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NarrowTri
 
 def without_area(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(m,) which triangles have none to speak of, for the face that they are on."""
-    if mesh.narrow_faces is None:
-        return ~(alpha > DEGENERATE)
-    return ~(alpha > np.where(in_narrow_faces(mesh), DEGENERATE_NARROW, DEGENERATE))
+    flat = ~(alpha > DEGENERATE)
+    if mesh.narrow_faces is not None and flat.any():
+        flat &= ~(in_narrow_faces(mesh) & (alpha > DEGENERATE_NARROW))
+    return flat

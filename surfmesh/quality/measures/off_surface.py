@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.boxes import diagonal
+from surfmesh._core.quality import far_corners
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
@@ -34,25 +34,26 @@ class OffSurface(NamedTuple):
 def off_surface(known: KnownSurfaces, tolerances: Tolerances) -> OffSurface:
     """Of faces without a chord; none where it is not known that vertices lie on the surface."""
     mesh, corners = known.mesh, known.corners
-    free = ~np.isfinite(tolerances.at(tolerances.chord, mesh.face_ids))
-    if mesh.sizing is None or mesh.sizing.vertices != ON_SURFACE or not free.any():
-        return OffSurface(np.empty(0, np.int64), np.empty(0))
-    triangles = np.flatnonzero(free & (known.in_plane == 0))
-    half_edge_of = np.full(len(corners.uv_points), -1)  # one of those at each corner
-    half_edge_of[corners.uv_triangles[triangles]] = 3 * triangles[:, None] + np.arange(3)
-    corner = np.flatnonzero(half_edge_of >= 0)
-    triangle, side = np.divmod(half_edge_of[corner], 3)
-    vertex, face = mesh.triangles[triangle, side], mesh.face_ids[triangle]
-    uv = corners.uv_points[corner]
-    away = np.linalg.norm(known.points_at(face, uv) - mesh.points[vertex], axis=1)
-    far = np.flatnonzero((away > OFF * diagonal(mesh.points)) & ~_on_model_edges(mesh)[vertex])
+    none = OffSurface(np.empty(0, np.int64), np.empty(0))
+    bound = np.isfinite(tolerances.at(tolerances.chord, mesh.face_ids))
+    if mesh.sizing is None or mesh.sizing.vertices != ON_SURFACE or bound.all():
+        return none
+    left_out = bound | (known.in_plane != 0)
+    limit = OFF * known.diagonal
+    far = far_corners(*known.arrays, left_out.view(np.uint8), limit)
+    if len(far):
+        far = far[~_on_model_edges(mesh)[mesh.triangles.reshape(-1)[far]]]
+    if not len(far):
+        return none
+    vertex, face = mesh.triangles.reshape(-1)[far], mesh.face_ids[far // 3]
+    uv = corners.uv_points[corners.uv_triangles.reshape(-1)[far]]
     distance = np.zeros(len(mesh.points))
-    for number in np.unique(face[far]).tolist():
-        own = far[face[far] == number]
+    for number in np.unique(face).tolist():
+        own = np.flatnonzero(face == number)
         points = mesh.points[vertex[own]]
         _, nearest, _ = closest_point(mesh.surfaces[number], points, uv[own], steps=STEPS)
         np.maximum.at(distance, vertex[own], nearest)
-    found = np.flatnonzero(distance > OFF * diagonal(mesh.points)).astype(np.int64)
+    found = np.flatnonzero(distance > limit).astype(np.int64)
     return OffSurface(found, distance[found])
 
 

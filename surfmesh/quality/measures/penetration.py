@@ -15,6 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import quality
 from surfmesh.result.mesh_parts import EdgeLinks
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -154,17 +155,7 @@ def edge_sagittas(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:
 
     An arc of length h that turns by a lies h a / 8 from its chord.
     """
-    segments, ids = links.edge_segments, links.edge_ids
-    way = mesh.points[segments[:, 1]] - mesh.points[segments[:, 0]]
-    length = np.linalg.norm(way, axis=1)
-    on = (ids[1:] == ids[:-1]) & (segments[1:, 0] == segments[:-1, 1])
-    size = np.maximum(length[1:] * length[:-1], np.finfo(float).tiny)
-    cosine = np.einsum("ij,ij->i", way[1:], way[:-1]) / size
-    angle = np.where(on, np.arccos(np.clip(cosine, -1.0, 1.0)), 0.0)
-    turn = np.zeros(len(segments))  # the larger of those at both ends
-    turn[:-1] = angle
-    np.maximum(turn[1:], angle, out=turn[1:])
-    return length * turn / 4.0
+    return quality.edge_sagittas(mesh.points, links.edge_segments, links.edge_ids)
 
 
 def _by_angles(mesh: SurfaceMesh) -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -38,7 +39,7 @@ ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
 BESIDE_MIDDLE = float(1.0 - np.min(np.abs(1.0 - 2.0 * ALONG_RIM[ALONG_RIM != 0.5])) ** 2)
 WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
 ON_CURVE = 1e-3  # of a segment: so far off the curve of its edge may its nodes be
-_ENDS = attrgetter("t0"), attrgetter("t1")
+_ENDS = attrgetter("t0", "t1")
 ALONG, PROJECTIONS = 17, 8  # points of an edge's curve that are put on a face, and steps to it
 
 
@@ -122,8 +123,8 @@ class SegmentCurves:
     @property
     def limits(self) -> NDArray[np.float64]:
         """(e, 2) the ends of the edges, in t of their curves."""
-        ends = (np.fromiter(map(end, self.edges), float) for end in _ENDS)
-        return np.stack(list(ends), axis=1)
+        ends = chain.from_iterable(map(_ENDS, self.edges))
+        return np.fromiter(ends, float, 2 * len(self.edges)).reshape(-1, 2)
 
     def along(self, segment: int, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """(j, 3) at ``t`` (j,) of one segment; None where its edge has no curve."""

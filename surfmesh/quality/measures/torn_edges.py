@@ -31,9 +31,13 @@ def torn_edges(known: KnownSurfaces, odd: Unexpected) -> NDArray[np.intp]:
     """
     mesh = known.mesh
     free = np.flatnonzero(mesh.connectivity.uses == 1)
+    if not len(free):
+        return free
     if odd.known:
         row = mesh.edge_segment_rows
-        return np.setdiff1d(free, row[row >= 0])
+        of_model = np.zeros(len(mesh.edges), bool)
+        of_model[row[row >= 0]] = True
+        return free[~of_model[free]]
     if mesh.facts is None or mesh.facts.faces:
         return free[:0]
     half_edge = mesh.connectivity.half_edges[free, 0]

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh.geometry.surface import surface_kind
-from surfmesh.quality.measures.area_and_volume import Explained
 from surfmesh.quality.measures.face_rows import FaceRows
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import face_in_words, more_in_words
@@ -20,6 +19,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 INEXACT = {"plane": 1e-3, "cylinder": 1e-3, "cone": 1e-3, "sphere": 1e-3, "torus": 1e-3}
 OTHERWISE = 0.02  # relative errors of exact figures by the kind of a face
+LEAST_INEXACT = min(INEXACT.values())
 NEARLY = 1e-6  # relative: what is looked at closely before it is judged
 LEAST = 1e-6  # of the area of all: what a face may miss unsaid
 
@@ -112,23 +112,27 @@ class MinSizeForbidsVolume(Remark):
 
 
 def unexplained(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
-    """Volumes of solids, and areas of faces, or of the whole where those are not known."""
-    found = measured.explained
-    if found is not None:
-        yield from _volumes(measured, found)
-        yield from _areas(measured, found, faces)
+    """Volumes of solids, and areas of faces, or of the whole where those are not known.
+
+    What distances explain is asked for only where more is lost than exact figures may be wrong by.
+    """
+    if measured.has_exact_figures:
+        yield from _volumes(measured)
+        yield from _areas(measured, faces)
 
 
-def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
+def _volumes(measured: Measurements) -> Iterator[Problem]:
     mesh, kinds = measured.mesh, measured.facts.faces
     bad: list[tuple[float, VolumeUnexplained]] = []
     for row in measured.solids:
         if row.volume is None or row.volume_exact is None or row.volume_error is None:
             continue
-        own = bounds_solid(mesh, row.solid)
-        allowed = float(found.volume[own].sum()) / row.volume_exact
-        if abs(row.volume_error) <= allowed + min(INEXACT.values()):
+        if abs(row.volume_error) <= LEAST_INEXACT or measured.explained is None:
             continue  # whatever its faces are
+        own = bounds_solid(mesh, row.solid)
+        allowed = float(measured.explained.volume[own].sum()) / row.volume_exact
+        if abs(row.volume_error) <= allowed + LEAST_INEXACT:
+            continue
         inexact = [
             _inexact(kinds[face].kind if face < len(kinds) else "")
             for face in np.flatnonzero(np.bincount(mesh.face_ids[own])).tolist()
@@ -144,21 +148,23 @@ def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
         yield replace(worst, more=more_in_words(bad, "; so have {} more"))
 
 
-def _areas(measured: Measurements, found: Explained, faces: FaceRows) -> Iterator[Problem]:
+def _areas(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
     area_exact = faces.area_exact
     known = np.flatnonzero(np.isfinite(area_exact))
     if not len(known):
-        yield from _whole_area(measured, found, faces)
+        yield from _whole_area(measured, faces)
         return
-    allowed = np.bincount(measured.mesh.face_ids, found.area, len(found.rims)) + found.rims
     least = LEAST * sum(area_exact[known].tolist())
-    errors = np.abs(faces.area - area_exact)[known]
-    least_allowed = (
-        allowed[faces.numbers[known]] + min(INEXACT.values()) * area_exact[known] + least
-    )
-    suspects = known[errors > (1.0 - NEARLY) * least_allowed]
+    errors = np.abs(faces.area - area_exact)
+    inexact = LEAST_INEXACT * area_exact + least
+    suspects = known[errors[known] > (1.0 - NEARLY) * inexact[known]]
+    if not len(suspects) or measured.explained is None:
+        return
+    found = measured.explained
+    allowed = np.bincount(measured.mesh.face_ids, found.area, len(found.rims)) + found.rims
+    near = (1.0 - NEARLY) * (allowed[faces.numbers[suspects]] + inexact[suspects])
     bad: list[tuple[float, AreaUnexplained]] = []
-    for k in suspects.tolist():
+    for k in suspects[errors[suspects] > near].tolist():
         row, exact = faces[k], float(area_exact[k])
         error, explained = abs(row.area - exact), float(allowed[row.face])
         if error > explained + _inexact(row.kind) * exact + least:
@@ -172,12 +178,15 @@ def _areas(measured: Measurements, found: Explained, faces: FaceRows) -> Iterato
         yield replace(worst, more=more_in_words(bad, "; {} more have not that of the model"))
 
 
-def _whole_area(measured: Measurements, found: Explained, faces: FaceRows) -> Iterator[Problem]:
+def _whole_area(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
     exact = measured.facts.area
     if not exact or not faces:
         return
-    area, allowed = sum(faces.area.tolist()), float(found.area.sum() + found.rims.sum())
-    if abs(area - exact) > allowed + INEXACT["plane"] * exact:
+    area, inexact = sum(faces.area.tolist()), INEXACT["plane"] * exact
+    if abs(area - exact) <= inexact or measured.explained is None:
+        return
+    allowed = float(measured.explained.area.sum() + measured.explained.rims.sum())
+    if abs(area - exact) > allowed + inexact:
         yield AreaUnexplained(face="", found=area, exact=exact, explained=allowed, more="")
 
 

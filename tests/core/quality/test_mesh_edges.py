@@ -72,17 +72,87 @@ def test_lengths_angles_and_faces_are_those_of_numpy(seed):
     assert seen[len(table.edges) :, 0].tolist() == table.half_edges[between, 1].tolist()
 
 
+def rim_losses(points, triangles, sides, sagitta, far):
+    """Of rims, rows of ``sides``, each with a sagitta; (k,) and of the faces, one a triangle."""
+    faces = np.arange(len(triangles), dtype=np.int32)
+    uses = 1 + (sides[:, 1] >= 0).astype(np.int32)
+    rows = np.arange(len(sides))
+    return quality.rim_losses(
+        points, triangles, faces, sides, uses, rows, sagitta, far, 0.1, len(faces)
+    )
+
+
 def test_rims_lose_their_length_times_the_farther_of_sagitta_and_slanted_distance():
     points = np.array([(0, 0, 0), (2, 0, 0), (1, 1, 0), (1, 0, 1)], float)
     triangles = np.array([(0, 1, 2), (1, 0, 3)], np.int32)  # at a right angle
     sides = np.array([(0, 3), (1, -1), (0, 3), (2, -1)], np.int32)
     sagitta, far = np.array([0.1, 0.2, 0.0, 9.0]), np.array([0.01, 0.05])
     root = 2.0**0.5
-    lost = quality.rim_losses(points, triangles, sides, sagitta, far, 0.1)
+    lost, of_faces = rim_losses(points, triangles, sides, sagitta, far)
     assert lost == pytest.approx([0.2, 0.2 * root, 0.1, 2.0])  # never more than its length squared
+    assert of_faces == pytest.approx([lost.sum(), 0.3])
     flat = np.array([(0, 0, 0), (2, 0, 0), (1, 1, 0), (1, -1, 0)], float)
-    (lost,) = quality.rim_losses(flat, triangles, sides[2:3], sagitta[2:3], far, 0.1)
+    (lost,), _ = rim_losses(flat, triangles, sides[2:3], sagitta[2:3], far)
     assert lost == pytest.approx(2.0 * 0.05 / 0.1)
+
+
+@given(seeds)
+def test_rims_are_free_edges_and_those_with_a_sagitta(seed):
+    rng, points, triangles, table = soup(seed, 12)
+    faces = rng.integers(0, 3, len(triangles)).astype(np.int32)
+    rows = rng.integers(-1, len(table.edges), 10)
+    sagitta, far = rng.random(10), rng.random(len(triangles))
+    given = points, triangles, faces, table.half_edges, table.uses
+    lost, of_faces = quality.rim_losses(*given, rows, sagitta, far, 0.1, 3)
+    rim = table.uses == 1
+    rim[rows[rows >= 0]] = True
+    assert (lost[~rim] == 0.0).all() and (lost[rim] > 0.0).all()
+    sides = table.half_edges[table.uses <= 2]
+    both = np.repeat(lost[table.uses <= 2], 2)[sides.ravel() >= 0]
+    beside = faces[sides.ravel()[sides.ravel() >= 0] // 3]
+    assert of_faces == pytest.approx(np.bincount(beside, both, 3))
+    with pytest.raises(ValueError, match="edge"):
+        quality.rim_losses(*given, rows + len(table.edges), sagitta, far, 0.1, 3)
+
+
+def test_sagittas_are_of_arcs_cut_in_segments_of_one_edge():
+    angle = np.linspace(0.0, 1.2, 5)
+    points = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    segments = np.stack([np.arange(4), np.arange(1, 5)], axis=1).astype(np.int32)
+    found = quality.edge_sagittas(points, segments, np.zeros(4, np.int32))
+    assert found == pytest.approx(np.full(4, 2.0 * (1.0 - np.cos(0.15))), rel=0.01)
+    assert quality.edge_sagittas(points, segments, np.arange(4, dtype=np.int32)).max() == 0.0
+    assert quality.edge_sagittas(points, segments[::2], np.zeros(2, np.int32)).max() == 0.0
+
+
+@given(seeds)
+def test_changes_of_sizes_are_quotients_that_are_finite(seed):
+    rng = np.random.default_rng(seed)
+    apart = rng.integers(0, 4, 30).astype(float)
+    lengths = rng.choice([0.0, 1.0, 2.0, np.inf, np.nan], 30, p=[0.2, 0.3, 0.3, 0.1, 0.1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        over = np.nan_to_num(apart / (0.5 * lengths), nan=0.0, posinf=0.0)
+    steepest, largest, above = quality.size_changes(apart, lengths, 0.5, 2.5)
+    assert (steepest, largest, above) == (over.argmax(), over.max(), (over > 2.5).sum())
+    assert quality.size_changes(apart, np.zeros(30), 0.5, 2.5)[0] == -1
+
+
+@given(seeds)
+def test_proper_triangles_have_three_corners_each_its_own_and_leave_none_out(seed):
+    rng, _, triangles, _ = soup(seed, 12)
+    _, triangles = np.unique(triangles, return_inverse=True)
+    triangles = triangles.reshape(-1, 3).astype(np.int32)
+    count = int(triangles.max()) + 1
+    repeated = len(np.unique(np.sort(triangles, axis=1), axis=0)) < len(triangles)
+    assert quality.are_proper(triangles, count) is not repeated
+    assert not quality.are_proper(triangles, count + 1)  # a vertex of no triangle
+    assert not quality.are_proper(triangles, count - 1)  # a number out of range
+    for wrong in (-1, count, triangles[3, 1]):  # the last: a corner twice
+        odd = triangles.copy()
+        odd[3, 0] = wrong
+        assert not quality.are_proper(odd, count)
+    twice = np.concatenate([triangles, triangles[rng.integers(12, size=1)][:, [2, 0, 1]]])
+    assert not quality.are_proper(twice, count)
 
 
 def test_what_is_out_of_range_is_refused():

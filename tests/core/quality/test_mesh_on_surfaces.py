@@ -9,6 +9,7 @@ from surfmesh._core.quality import (
     enclosed_volumes,
     explained_losses,
     face_creases,
+    far_corners,
     sampled_surface,
     surface_distances,
 )
@@ -51,6 +52,24 @@ def test_distances_over_triangles_are_those_of_samples(torus):
     _, _, expected = sampled_surface(**arrays(torus), triangle=triangle, rule=rule, weights=WEIGHTS)
     found = surface_distances(**arrays(torus), triangle=some, weights=WEIGHTS)
     assert (found == expected).all()
+
+
+def test_far_corners_are_those_of_places_whose_vertices_have_moved(torus):
+    points = torus.points.copy()
+    moved = np.array([3, 40, 41])
+    points[moved] += 0.01
+    none = np.zeros(len(torus.triangles), np.uint8)
+    given = arrays(torus) | {"points": points, "limit": 1e-6}
+    found = far_corners(**given, left_out=none)
+    assert set(torus.triangles.ravel()[found]) == set(moved)
+    places = torus.parametrisation.uv_triangles.ravel()
+    of_moved = np.unique(places[np.isin(torus.triangles, moved).ravel()])
+    assert places[found].tolist() == of_moved.tolist()  # one corner each
+    beside = np.isin(torus.triangles, moved).any(axis=1)
+    assert len(far_corners(**given, left_out=beside.view(np.uint8))) == 0
+    assert len(far_corners(**given | {"limit": 0.1}, left_out=none)) == 0
+    with pytest.raises(ValueError, match="left_out"):
+        far_corners(**given, left_out=none[1:])
 
 
 def test_a_torus_has_no_crease_where_triangles_turn(torus):

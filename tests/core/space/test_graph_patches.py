@@ -103,6 +103,22 @@ def test_a_ramp_that_lies_over_itself_is_no_patch(turns, whole):
     assert (len(meeting_pairs(mesh)) == 0) is whole
 
 
+@pytest.mark.parametrize("first", ["steep", "flat"])
+def test_an_open_graph_is_one_patch_however_steep(first):
+    """Whatever the first triangle faces: the sum of all normals says how to look."""
+    (s, t), triangles = grid(20, 20)[0].T, grid(20, 20)[1]
+    peak = np.stack([s, t, 30.0 * np.exp(-60.0 * ((s - 0.5) ** 2 + (t - 0.5) ** 2))], axis=1)
+    corners = peak[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    tilt = normal[:, 2] / np.linalg.norm(normal, axis=1)
+    assert tilt.min() < 0.02
+    order = np.argsort(tilt if first == "steep" else -tilt)
+    assert sheets_are_one_patch(peak, np.ascontiguousarray(triangles[order]))
+    folded = peak.copy()
+    folded[:, 0] += 0.2 * peak[:, 2] * (s - 0.5)  # it hangs over
+    assert not sheets_are_one_patch(folded, triangles)
+
+
 def test_a_disc_within_a_disc_is_no_patch_of_both():
     """Their rims do not cross, and one winds round the other."""
     (s, t), triangles = grid(6, 6)[0].T, grid(6, 6)[1]
