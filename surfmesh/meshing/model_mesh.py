@@ -30,7 +30,7 @@ from surfmesh.meshing.estimate.model_estimate import (
     FaceFields,
     is_foreseen,
     model_counts,
-    quick_bound,
+    quick_bounds,
     require_model_within,
 )
 from surfmesh.meshing.estimate.trial_faces import ratios
@@ -317,7 +317,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     sizings = [state.sizing for state in before.faces]
-    small, foreseen = before.bound <= (LESS_STRETCHED * whole if stretched else FEW), False
+    small, foreseen = before.most.sum() <= (LESS_STRETCHED * whole if stretched else FEW), False
     counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)
@@ -381,8 +381,8 @@ class _Unmeshed:
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
         sizings = [state.sizing for state in self.faces]
         self.bends = Bends.of(model, sizings)
-        self.bound = quick_bound(model, nodes, sizings, self.bends)
-        """Triangles at most, roughly."""
+        self.most = quick_bounds(model, nodes, sizings, self.bends)
+        """Triangles (f,) of the faces at most, roughly."""
         self.nodes = nodes
         """Of the edges, as they are cut in the first round."""
         self._asked: dict[int, SizeLimits | None] = {}
@@ -413,7 +413,7 @@ class _Unmeshed:
 
     def counts(self, fields: FaceFields) -> np.ndarray:
         """Triangles (f,) of the faces, by a closer look at some of them."""
-        return model_counts(self.model, self.jobs, self.alike, self.refined, fields)
+        return model_counts(self.model, self.jobs, self.most, self.alike, self.refined, fields)
 
     def _asked_around(self, numbers: list[int]) -> dict[int, SizeLimits]:
         """What some faces and their neighbours ask of their edges, see ``edge_refinement``; where
