@@ -7,10 +7,14 @@
 #include "binding/released.hpp"
 #include "edges/checked_arguments.hpp"
 #include "edges/edge_mates.hpp"
+#include "edges/edges_beside.hpp"
 #include "edges/mated_cuts.hpp"
 #include "edges/narrow_faces.hpp"
 
 namespace surfmesh::binding {
+
+template <>
+struct Row<EdgesBeside> : RowOf<std::int64_t, 3> {};
 
 namespace {
 
@@ -165,6 +169,43 @@ void bind_narrow_faces(nb::module_& m) {
           "length: of the edges. area: of the faces. surfaces: k.");
 }
 
+auto found_beside(const Points3& points, const Indices& first, const Matrix<std::int64_t, 2>& ends,
+                  const Indices& first_of_face, const Indices& edges, const Indices& coedge_edge,
+                  const Indices& coedge_face, const Flags& is_reversed, const Indices& one,
+                  const Indices& other, const Numbers& width, double acute) {
+    const std::size_t count = ends.shape(0), coedges = coedge_edge.shape(0);
+    require_offsets(first, count, points.shape(0), "first");
+    require_offsets(first_of_face, width.shape(0), edges.shape(0), "first_of_face");
+    require_indices(rows<std::int64_t>(edges), count, "edges");
+    require_indices(rows<std::int64_t>(coedge_edge), count, "coedge_edge");
+    require_rows(coedge_face.shape(0), coedges, "coedge_face");
+    require_indices(rows<std::int64_t>(coedge_face), width.shape(0), "coedge_face");
+    require_rows(is_reversed.shape(0), coedges, "is_reversed");
+    require_rows(other.shape(0), one.shape(0), "other");
+    for (const Indices* row : {&one, &other}) {
+        require_indices(rows<std::int64_t>(*row), coedges, "one or other");
+        for (const std::int64_t coedge : rows<std::int64_t>(*row)) {
+            const std::int64_t* begin = first.data() + coedge_edge.data()[coedge];
+            if (begin[1] - begin[0] < 2) throw nb::value_error("an edge that is met has no way");
+        }
+    }
+    Array<EdgesBeside> found;
+    {
+        const nb::gil_scoped_release released;
+        found = edges_beside(
+            {rows<Point3>(points),
+             {},
+             rows<std::int64_t>(first),
+             rows<SegmentEnds>(ends),
+             rows<std::int64_t>(edges),
+             rows<std::int64_t>(first_of_face)},
+            {rows<std::int64_t>(coedge_edge), rows<std::int64_t>(coedge_face),
+             rows<std::uint8_t>(is_reversed), rows<std::int64_t>(one), rows<std::int64_t>(other)},
+            rows<double>(width), acute);
+    }
+    return view(found);
+}
+
 void bind_mates(nb::module_& m) {
     nb::class_<MateRuns> runs(m, "MateRuns",
                               "Parts of edges that run beside another edge, sample by sample.");
@@ -179,6 +220,18 @@ void bind_mates(nb::module_& m) {
     bind_read_only_array(runs, "t", &MateRuns::t, "(n,)");
     bind_read_only_array(runs, "foot", &MateRuns::foot, "(n,)");
     bind_read_only_array(runs, "gap", &MateRuns::gap, "(n,) model units");
+    m.def(
+        "edges_beside", &found_beside, nb::arg("points"), nb::arg("first"), nb::arg("ends"),
+        nb::arg("first_of_face"), nb::arg("edges"), nb::arg("coedge_edge"), nb::arg("coedge_face"),
+        nb::arg("is_reversed"), nb::arg("one"), nb::arg("other"), nb::arg("width"),
+        nb::arg("acute"),
+        "Rows (k, 3) of a face and two of its edges, both ways: edges that follow each other and "
+        "turn back, then those that do not meet and are somewhere narrowly apart.\n\npoints (n, "
+        "3): samples, of edge e those from first[e] to first[e + 1]; ends (e, 2): vertices. "
+        "edges: of face f, each once, from first_of_face[f] to first_of_face[f + 1]. coedge_edge, "
+        "coedge_face, is_reversed (c,): of all coedges; other (s,) follow one (s,). width (f,): "
+        "of narrow faces; of a face with 0 nothing is looked at. acute: cosine between edges, "
+        "above which they turn back.");
     m.def("mate_runs", &found_mate_runs, nb::arg("curves"), nb::arg("points"), nb::arg("t"),
           nb::arg("first"), nb::arg("uses"), nb::arg("is_reversed"), nb::arg("first_use"),
           nb::arg("own"), nb::arg("other"), nb::arg("width"), nb::arg("fewest"),

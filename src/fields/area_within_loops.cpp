@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 namespace surfmesh {
@@ -23,6 +24,10 @@ struct CutLoops {
         const auto at = static_cast<std::ptrdiff_t>(k);
         const std::int32_t begin = k == 0 ? 0 : end[at - 1];
         return {corners.data() + begin, static_cast<std::size_t>(end[at] - begin)};
+    }
+    void clear() {
+        corners.clear();
+        end.clear();
     }
     /// The loop of the corners behind the last end; without area there is none.
     void close(double least) {
@@ -101,29 +106,31 @@ CutLoops directed(const PlaneLoops& loops) {
 }
 
 /// What lies below and above a height of one coordinate, after Sutherland and Hodgman.
-std::pair<CutLoops, CutLoops> halves(const CutLoops& loops, double Point2::* axis, double at,
-                                     double least) {
-    std::pair<CutLoops, CutLoops> made;
-    auto& [below, above] = made;
-    for (std::size_t k = 0; k < loops.end.size(); ++k) {
-        const auto corners = loops.loop(k);
-        Point2 p = corners.back();
-        for (const Point2 q : corners) {
-            if ((p.*axis < at && q.*axis > at) || (p.*axis > at && q.*axis < at)) {
-                Point2 cut = p + (at - p.*axis) / (q.*axis - p.*axis) * (q - p);
-                cut.*axis = at;
-                below.corners.push_back(cut);
-                above.corners.push_back(cut);
+struct Halves {
+    CutLoops below, above;
+
+    void cut(const CutLoops& loops, double Point2::* axis, double at, double least) {
+        below.clear();
+        above.clear();
+        for (std::size_t k = 0; k < loops.end.size(); ++k) {
+            const auto corners = loops.loop(k);
+            Point2 p = corners.back();
+            for (const Point2 q : corners) {
+                if ((p.*axis < at && q.*axis > at) || (p.*axis > at && q.*axis < at)) {
+                    Point2 cut = p + (at - p.*axis) / (q.*axis - p.*axis) * (q - p);
+                    cut.*axis = at;
+                    below.corners.push_back(cut);
+                    above.corners.push_back(cut);
+                }
+                if (q.*axis <= at) below.corners.push_back(q);
+                if (q.*axis >= at) above.corners.push_back(q);
+                p = q;
             }
-            if (q.*axis <= at) below.corners.push_back(q);
-            if (q.*axis >= at) above.corners.push_back(q);
-            p = q;
+            below.close(least);
+            above.close(least);
         }
-        below.close(least);
-        above.close(least);
     }
-    return made;
-}
+};
 
 /// A cell with its box, or several root cells.
 struct CellBlock {
@@ -137,7 +144,7 @@ class AreaSum {
     AreaSum(const Background& background, Between between) : b_(background), between_(between) {}
 
     /// Over what lies in the block and within the loops, which do not leave it.
-    double within(const CellBlock& block, const CutLoops& loops) const {
+    double within(const CellBlock& block, const CutLoops& loops, std::size_t depth = 0) {
         if (loops.end.empty()) return 0.0;
         if (std::abs(loops.area() - block.box.area()) <= NO_AREA * block.box.area())
             return whole(block);
@@ -145,13 +152,15 @@ class AreaSum {
         double total = 0.0;
         const double least = NO_AREA * block.box.area();
         const CellParts parts = parts_of(block);
-        const auto [left, right] = halves(loops, &Point2::x, parts.middle.x, least);
+        if (depth == room_.size()) room_.emplace_back();
+        auto& [sides, columns] = room_[depth];
+        sides.cut(loops, &Point2::x, parts.middle.x, least);
         for (int side = 0; side < 2; ++side) {
-            const CutLoops& beside = side == 0 ? left : right;
-            const auto [low, high] = halves(beside, &Point2::y, parts.middle.y, least);
+            columns.cut(side == 0 ? sides.below : sides.above, &Point2::y, parts.middle.y, least);
             for (int up = 0; up < 2; ++up) {
                 const CellBlock& part = parts.part[static_cast<std::size_t>(2 * up + side)];
-                if (part.nx > 0 && part.ny > 0) total += within(part, up == 0 ? low : high);
+                if (part.nx > 0 && part.ny > 0)
+                    total += within(part, up == 0 ? columns.below : columns.above, depth + 1);
             }
         }
         return total;
@@ -266,6 +275,7 @@ class AreaSum {
 
     const Background& b_;
     Between between_;
+    std::deque<std::array<Halves, 2>> room_;  // on the way down: to the sides, then up and down
 };
 
 }  // namespace
@@ -273,12 +283,15 @@ class AreaSum {
 double metric_area_within(const Background& b, const PlaneLoops& loops, Between between) {
     const Point2 low{b.box.x0, b.box.y0};
     const Point2 high{low.x + b.grid.nx / b.box.across, low.y + b.grid.ny / b.box.up};
-    CutLoops cut = directed(loops);
+    CutLoops inside = directed(loops);
+    Halves halves;
     for (double Point2::* axis : {&Point2::x, &Point2::y}) {
-        cut = halves(cut, axis, low.*axis, 0.0).second;
-        cut = halves(cut, axis, high.*axis, 0.0).first;
+        halves.cut(inside, axis, low.*axis, 0.0);
+        std::swap(inside, halves.above);
+        halves.cut(inside, axis, high.*axis, 0.0);
+        std::swap(inside, halves.below);
     }
-    return AreaSum(b, between).within({0, b.grid.nx, b.grid.ny, {low, high}}, cut);
+    return AreaSum(b, between).within({0, b.grid.nx, b.grid.ny, {low, high}}, inside);
 }
 
 }  // namespace surfmesh

@@ -58,10 +58,13 @@ class SourceTree {
         for (std::int32_t row = 0; row < roots_.ny; ++row)
             for (std::int32_t column = 0; column < roots_.nx; ++column)
                 add_cell({column << DEEPEST, row << DEEPEST, 0});
-        if (!walk(true) || (!is_rough_ && !balance())) return false;
-        corner_.resize(child_.size());
+        if (is_rough_) {
+            clear_nodes();
+            return walk(Walk::both);
+        }
+        if (!walk(Walk::splitting) || !balance()) return false;
         clear_nodes();
-        return walk(false);
+        return walk(Walk::numbering);
     }
 
     [[nodiscard]] Background background(double largest) && {
@@ -75,7 +78,11 @@ class SourceTree {
     }
 
   private:
-    [[nodiscard]] bool walk(bool splitting);
+    /// Leaves are split where they have to be; leaves are given their nodes; both at once, where
+    /// no leaf is split for its neighbours.
+    enum class Walk { splitting, numbering, both };
+
+    [[nodiscard]] bool walk(Walk what);
     [[nodiscard]] Listed chosen(Cell cell, Listed from, AtMiddle& middle);
     [[nodiscard]] AtMiddle nearest_source(Cell cell, Listed from, std::int32_t& nearest);
     [[nodiscard]] bool is_coarse(Cell cell, Listed from, const AtMiddle& middle) const;
@@ -84,6 +91,7 @@ class SourceTree {
     [[nodiscard]] bool split(Cell cell);
     void make_nodes(Cell cell, Listed from);
     void clear_nodes();
+    void make_room();
     [[nodiscard]] std::size_t slot(std::uint64_t key) const;
     [[nodiscard]] Cell leaf_at(std::int32_t i, std::int32_t j) const;
 
@@ -154,9 +162,7 @@ class SourceTree {
 };
 
 /// Visit all cells, each with the sources that matter in it.
-///
-/// splitting: leaves are split where they have to be; otherwise they are given their nodes.
-bool SourceTree::walk(bool splitting) {
+bool SourceTree::walk(Walk what) {
     listed_.clear();
     for (std::size_t k = 0; k < sources_.size.size(); ++k)
         if (sources_.size[k] < sources_.largest) listed_.push_back(static_cast<std::int32_t>(k));
@@ -167,10 +173,11 @@ bool SourceTree::walk(bool splitting) {
             const auto [cell, given] = stack_.pop_back();
             AtMiddle middle{};
             const Listed here = chosen(cell, given, middle);
-            if (splitting && is_coarse(cell, here, middle) && !split(cell)) return false;
+            if (what != Walk::numbering && is_coarse(cell, here, middle) && !split(cell))
+                return false;
             const Cell child = child_[cell];
             if (child < 0) {
-                if (!splitting) make_nodes(cell, here);
+                if (what != Walk::splitting) make_nodes(cell, here);
                 continue;
             }
             for (int k = 0; k < 4; ++k) stack_.push_back({child + k, here});
@@ -315,7 +322,8 @@ bool SourceTree::balance() {
     return true;
 }
 
-/// An empty table of nodes with room for all: a split makes five at most.
+/// An empty table of nodes with room for those of all cells that there are: a split makes five at
+/// most.
 void SourceTree::clear_nodes() {
     const std::size_t roots = static_cast<std::size_t>(roots_.nx) * roots_.ny;
     const std::size_t most = (static_cast<std::size_t>(roots_.nx) + 1) * (roots_.ny + 1) +
@@ -325,8 +333,25 @@ void SourceTree::clear_nodes() {
     node_.resize(slots, NIL);
 }
 
+/// Room for four nodes and for the corners of all cells, where cells are still split.
+void SourceTree::make_room() {
+    if (corner_.size() < child_.size()) corner_.resize(child_.size());
+    if (2 * (metric_root_.size() + 4) <= key_.size()) return;
+    Array<std::uint64_t> keys(2 * key_.size(), NO_KEY);
+    Array<Node> nodes(2 * node_.size(), NIL);
+    key_.swap(keys);
+    node_.swap(nodes);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (keys[k] == NO_KEY) continue;
+        const std::size_t at = slot(keys[k]);
+        key_[at] = keys[k];
+        node_[at] = nodes[k];
+    }
+}
+
 /// The corner nodes of a leaf, with their sizes when they are new.
 void SourceTree::make_nodes(Cell cell, Listed from) {
+    make_room();
     const Place low = place_[cell];
     const std::int64_t size = std::int64_t{1} << (DEEPEST - low.depth);
     for (int k = 0; k < 4; ++k) {

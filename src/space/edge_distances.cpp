@@ -26,10 +26,6 @@ Box3 box_around(std::span<const Point3> points) {
     return box;
 }
 
-bool have_common_vertex(SegmentEnds a, SegmentEnds b) {
-    return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
-}
-
 double squared_distance_between(const Box3& a, const Box3& b) {
     const auto apart = [](double low_a, double high_a, double low_b, double high_b) {
         const double d = std::max(std::max(low_a - high_b, low_b - high_a), 0.0);

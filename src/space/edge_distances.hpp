@@ -19,6 +19,10 @@ struct SampledEdges {
     std::span<const std::int64_t> first_of_face;  // where they begin, and how many there are
 };
 
+inline bool have_common_vertex(SegmentEnds a, SegmentEnds b) {
+    return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
+}
+
 struct EdgeGaps {
     Array<double> gap;  // of the samples, infinite where nothing is in reach
     Array<Box3> boxes;  // of the edges, around their samples

@@ -166,7 +166,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     sizings = [state.sizing for state in before.faces]
-    small, foreseen = before.bound <= (LESS_STRETCHED * whole if stretched else FEW), False
+    small, foreseen = before.most.sum() <= (LESS_STRETCHED * whole if stretched else FEW), False
     counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)

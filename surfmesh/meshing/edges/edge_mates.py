@@ -17,7 +17,6 @@ import numpy as np
 
 from surfmesh._core import edges
 from surfmesh._core.edges import MateRuns
-from surfmesh._core.space import edge_gaps, edge_sags
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -40,14 +39,14 @@ def mate_runs(model: CadModel, samples: EdgeSamples) -> MateRuns:
     of_narrow = _runs_of_narrow(model, samples)
     known = set(zip(of_narrow.edge.tolist(), of_narrow.mate.tolist()))
     widths: dict[tuple[int, int], float] = {}
-    pairs = dict.fromkeys([*_meeting_pairs(model, samples), *_near_pairs(model, samples)])
-    for face, a, b in pairs:
+    for face, a, b in _beside(model, samples):
         if (a, b) not in known:
             widths[a, b] = max(widths.get((a, b), 0.0), float(samples.narrow_width[face]))
     row = {edge: k for k, edge in enumerate(dict.fromkeys(chain(*widths)))}
     chains = [[(edge, False)] for edge in row]
     between = [(row[a], row[b], width) for (a, b), width in widths.items()]
-    return _joined(of_narrow, _runs(model, samples, chains, between, FEWEST))
+    others = _runs(model, samples, chains, between, FEWEST)
+    return _joined(of_narrow, others) if len(of_narrow) else others
 
 
 def _runs_of_narrow(model: CadModel, samples: EdgeSamples) -> MateRuns:
@@ -96,55 +95,15 @@ def _joined(one: MateRuns, other: MateRuns) -> MateRuns:
     )
 
 
-def _meeting_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
-    """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
-    arrays, points, first = model_arrays(model), samples.points, samples.first
-    looked_at = samples.narrow_width > 0.0
-    looked_at[list(samples.narrow)] = False
-    one, other = arrays.successions
-    if not looked_at.all():
-        of_them = looked_at[arrays.coedge_face[one]]
-        one, other = one[of_them], other[of_them]
-    edge, back = arrays.coedge_edge, arrays.coedge_reversed
-    a, b = edge[one], edge[other]
-    end = np.where(back[one], first[a], first[a + 1] - 1)  # of walking
-    start = np.where(back[other], first[b + 1] - 1, first[b])
-    into = points[np.where(back[one], end + 1, end - 1)] - points[end]
-    out = points[np.where(back[other], start - 1, start + 1)] - points[start]
-    lengths = np.linalg.norm(into, axis=1) * np.linalg.norm(out, axis=1)
-    found = []
-    for row in np.flatnonzero((into * out).sum(axis=1) > ACUTE * lengths).tolist():
-        face, own, mate = int(arrays.coedge_face[one[row]]), int(a[row]), int(b[row])
-        found += [(face, own, mate), (face, mate, own)]
-    return found
-
-
-def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
-    """(face, edge, edge) of edges that do not meet and are somewhere narrowly apart, both ways."""
-    points, first = samples.points, samples.first
-    if len(points) < 3:
-        return []
-    ends, sag = model_arrays(model).mesh_ends, edge_sags(points, first)
-    several = np.diff(samples.first_of_face) > 1
-    looked_at = np.flatnonzero(samples.is_wide & several & (samples.narrow_width > 0.0))
-    widths, seen = np.unique(samples.narrow_width[looked_at], return_index=True)
-    count = np.diff(first)
-    found = []
-    for width in widths[np.argsort(seen)].tolist():  # in the order of their first faces
-        faces = looked_at[samples.narrow_width[looked_at] == width]
-        start, in_a_row = samples.edges_of_faces(faces)
-        reach = np.repeat(width + sag + sag.max(), count)
-        gap, boxes = edge_gaps(points, reach, first, ends, in_a_row, start)
-        near = np.zeros(len(model.edges), bool)
-        near[np.searchsorted(first, np.flatnonzero(np.isfinite(gap)), side="right") - 1] = True
-        low, high = boxes[:, :3], boxes[:, 3:]
-        some = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
-        for k in np.flatnonzero(some).tolist():
-            face, own = int(faces[k]), in_a_row[start[k] : start[k + 1]]
-            own = own[near[own]]
-            for a in own.tolist():
-                apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)
-                close = np.linalg.norm(apart, axis=1) <= width + sag[a] + sag[own]
-                meets = (ends[own, :, None] == ends[a]).any(axis=(1, 2))
-                found += [(face, a, b) for b in own[close & ~meets].tolist()]
-    return found
+def _beside(model: CadModel, samples: EdgeSamples) -> list[list[int]]:
+    """[face, edge, edge] of edges that meet and turn back, and of those that do not meet and are
+    somewhere narrowly apart, both ways."""
+    arrays = model_arrays(model)
+    width = samples.narrow_width
+    if samples.narrow:
+        width = np.where(samples.is_wide, width, 0.0)
+    return edges.edges_beside(
+        samples.points, samples.first, arrays.mesh_ends, samples.first_of_face,
+        samples.face_edges, arrays.coedge_edge, arrays.coedge_face,
+        arrays.coedge_reversed.view(np.uint8), *arrays.successions, width, ACUTE,
+    ).tolist()  # fmt: skip

@@ -5,7 +5,8 @@
                                        what their boundary nodes and their area say
 
 A bolt circle has one class of holes. Where there are many classes, one is chosen as often as it
-holds a quantile of all triangles; planes and curved faces are two populations.
+holds a quantile of all triangles; planes and curved faces are two populations. Classes that hold
+few triangles all together are not looked at: what their nodes and areas say is enough.
 """
 
 from __future__ import annotations
@@ -24,6 +25,10 @@ from surfmesh.sizing.options.sizing import Sizing
 
 CLASSES = 32
 """Of each population all are looked at closely up to so many, so many of more than that."""
+
+FEW = 0.01
+"""Share of the triangles that are told from nodes and areas alone, at most: faces of classes that
+could not hold more whatever their sizes inside."""
 
 DIGITS = 6
 """To which alike faces agree in lengths, areas and sizes."""
@@ -101,35 +106,51 @@ class Alike(NamedTuple):
 
 
 def counts_of_faces(
-    jobs: list[FaceJob], areas: np.ndarray, alike: Alike,
+    jobs: list[FaceJob], areas: np.ndarray, most: np.ndarray, alike: Alike,
     count: Callable[[list[int]], np.ndarray],
 ) -> np.ndarray:  # fmt: skip
-    """Triangles (f,) on each face. areas: (f,) of the faces; count: of some by their numbers, after
-    a closer look."""
+    """Triangles (f,) on each face. areas: (f,) of the faces; most: (f,) that fit on them by their
+    area, infinite where nothing is known; count: of some by their numbers, after a closer look."""
     outlines, first = alike.outlines, alike.first
     inside = TRIANGLES * areas[first] / outlines.size[first] ** 2
     rough = np.maximum(combined(inside, outlines.fewest[first]), 1.0)
     members = np.bincount(alike.of, minlength=len(first))
-    plane = np.array([jobs[face].surface.kind == "plane" for face in first], bool)
-    samples = [
-        (of, *_sample(of, (rough * members)[of])) for of in map(np.flatnonzero, (plane, ~plane))
-    ]
+    weight = rough * members
+    leaders = [jobs[face] for face in first.tolist()]
+    plane = np.array([job.surface.kind == "plane" for job in leaders], bool)
+    stretched = np.array([job.sizing.is_anisotropic for job in leaders], bool)
+    largest = np.where(stretched, np.inf, np.maximum(most[first], rough))  # edges are cut again
+    few = _are_few(largest * members, weight.sum())
+    samples = [(of, *_sample(of[~few[of]], weight)) for of in map(np.flatnonzero, (plane, ~plane))]
     close = np.concatenate([chosen for _, chosen, _ in samples])
     counts = np.zeros(len(first))
     counts[close] = count(first[close].tolist())
     for of, chosen, times in samples:
-        if len(of) > len(chosen):
-            others = np.setdiff1d(of, chosen)
-            factor = np.average(counts[chosen] / rough[chosen], weights=times)
-            counts[others] = factor * rough[others]
+        others = of[~np.isin(of, chosen)]
+        counts[others] = rough[others] * _mean_ratio(counts[chosen], rough[chosen], times)
     return counts[alike.of]
 
 
-def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which of some classes are looked at closely, and how often each was chosen."""
+def _mean_ratio(counts: np.ndarray, rough: np.ndarray, times: np.ndarray) -> float:
+    """Of what was found (k,) to what was expected (k,), with weights (k,); 1 where nothing was
+    looked at."""
+    return float(np.average(counts / rough, weights=times)) if len(counts) else 1.0
+
+
+def _are_few(most: np.ndarray, total: float) -> np.ndarray:
+    """Which classes of at most so many triangles (k,) hold few of all of them together?"""
+    order = np.argsort(most, kind="stable")
+    found = np.empty(len(most), bool)
+    found[order] = np.cumsum(most[order]) <= FEW * total
+    return found
+
+
+def _sample(of: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which of some classes are looked at closely, and how often each was chosen; weight: of all
+    classes."""
     if len(of) <= CLASSES:
         return of, np.ones(len(of))
-    sums = np.cumsum(weights)
+    sums = np.cumsum(weight[of])
     at = (np.arange(CLASSES) + 0.5) / CLASSES * sums[-1]
     return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
 

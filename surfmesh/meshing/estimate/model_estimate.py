@@ -56,15 +56,16 @@ class FaceFields:
 
 
 def model_counts(
-    model: CadModel, jobs: list[FaceJob], alike: Alike, refined: JobsOf, fields: FaceFields
-) -> np.ndarray:
+    model: CadModel, jobs: list[FaceJob], most: np.ndarray, alike: Alike, refined: JobsOf,
+    fields: FaceFields,
+) -> np.ndarray:  # fmt: skip
     """Triangles on each face (f,) before anything is known of a mesh. Raises
     ``SizingError`` where a size field cannot be made.
 
-    jobs: of the first round; refined: what some are counted from.
+    jobs: of the first round; most: see ``quick_bounds``; refined: what some are counted from.
     """
     return counts_of_faces(
-        jobs, model_arrays(model).area, alike,
+        jobs, model_arrays(model).area, most, alike,
         lambda numbers: counts_by_area(refined(numbers), fields),
     )  # fmt: skip
 
@@ -191,11 +192,11 @@ class Bends(NamedTuple):
         return cls(least, turn, rules)
 
 
-def quick_bound(
+def quick_bounds(
     model: CadModel, nodes: CutEdges, sizings: list[Sizing], bends: Bends
-) -> float:  # fmt: skip
-    """Triangles of the whole model at most, of size requests at a few points of the faces' boxes,
-    all faces at once; infinite where sizes depend on the place by a law."""
+) -> np.ndarray:  # fmt: skip
+    """Triangles (f,) of the faces at most, of size requests at a few points of their boxes, all
+    faces at once; infinite where sizes depend on the place by a law."""
     arrays = model_arrays(model)
     edges = np.full(len(nodes), np.inf)
     cut = np.flatnonzero(np.diff(nodes.first))
@@ -206,12 +207,12 @@ def quick_bound(
     limits: dict[int, tuple[float, float]] = {}
     for sizing in {id(sizing): sizing for sizing in sizings}.values():
         if sizing.has_law:
-            return np.inf
+            return np.full(len(sizings), np.inf)
         floor, top = bends.rules[id(sizing)].clamp
         limits[id(sizing)] = floor, min([top, *(getattr(s, "size", top) for s in sizing.sources)])
     floors, tops = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
     smallest = np.maximum(np.minimum(smallest, tops), floors)
-    return float((TRIANGLES * arrays.area / smallest**2).sum())
+    return TRIANGLES * arrays.area / smallest**2
 
 
 def is_foreseen(
@@ -241,7 +242,8 @@ def require_model_within(
 ) -> None:  # fmt: skip
     """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
     triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
-    if quick_bound(model, nodes, sizings, Bends.of(model, sizings)) <= sizing.limit:
+    quick = quick_bounds(model, nodes, sizings, Bends.of(model, sizings))
+    if quick.sum() <= sizing.limit:
         return
     least, most = bounds(model, nodes, sizings)
     if most.sum() <= sizing.limit:
@@ -251,6 +253,6 @@ def require_model_within(
     every = jobs()
     alike = Alike.among(every, model_arrays(model).area)
     counts = model_counts(
-        model, every, alike, lambda numbers: [every[k] for k in numbers], FaceFields()
+        model, every, quick, alike, lambda numbers: [every[k] for k in numbers], FaceFields()
     )
     require_within(sizing.limit, Estimate.of(counts, model=True), names)

@@ -14,7 +14,7 @@ from surfmesh.meshing.edges.edge_nodes import cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.model_rules import with_model_rules
 from surfmesh.meshing.estimate.face_counts import Alike
-from surfmesh.meshing.estimate.model_estimate import Bends, FaceFields, model_counts, quick_bound
+from surfmesh.meshing.estimate.model_estimate import Bends, FaceFields, model_counts, quick_bounds
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import edge_refinement
 from surfmesh.meshing.faces.face_state import face_jobs, face_states
@@ -38,8 +38,8 @@ class UnmeshedModel:
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
         sizings = [state.sizing for state in self.faces]
         self.bends = Bends.of(model, sizings)
-        self.bound = quick_bound(model, nodes, sizings, self.bends)
-        """Triangles at most, roughly."""
+        self.most = quick_bounds(model, nodes, sizings, self.bends)
+        """Triangles (f,) of the faces at most, roughly."""
         self.nodes = nodes
         """Of the edges, as they are cut in the first round."""
         self._asked: dict[int, SizeLimits | None] = {}
@@ -70,7 +70,7 @@ class UnmeshedModel:
 
     def counts(self, fields: FaceFields) -> np.ndarray:
         """Triangles (f,) of the faces, by a closer look at some of them."""
-        return model_counts(self.model, self.jobs, self.alike, self.refined, fields)
+        return model_counts(self.model, self.jobs, self.most, self.alike, self.refined, fields)
 
     def _asked_around(self, numbers: list[int]) -> dict[int, SizeLimits]:
         """What some faces and their neighbours ask of their edges, see ``edge_refinement``; where

@@ -199,7 +199,9 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
             looked.extend(numbers)
             return model_estimate.counts_by_area([jobs[k] for k in numbers], fields)
 
-        found = counts_of_faces(before.jobs, areas, Alike.among(before.jobs, areas), count)
+        found = counts_of_faces(
+            before.jobs, areas, before.most, Alike.among(before.jobs, areas), count
+        )
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
