@@ -27,7 +27,7 @@ from surfmesh.geometry.surface import Surface
 PARTS = 8
 """Of a side of a triangle that is cut."""
 
-BENT = 0.02
+BENT = 0.1
 """Of the length of a side: farther apart than that the middles of both are not the same."""
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import TriangleStars, corner_places, hidden_bounds
 from surfmesh._core.space import PointTree, triangle_planes
+from surfmesh.geometry.components import components
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import BoundedSurface
@@ -196,11 +197,14 @@ def _bent_parts(
     chart, uv = Chart.of(surface), known.uv(triangles)
     if not are_bent(surface, chart, uv[is_left]).any():
         return None
-    is_cut = are_bent(surface, chart, uv).any(axis=1)
     corners = known.corners.uv_triangles[triangles]
     table = connect(np.ascontiguousarray(corners, np.int32))
-    alone = np.zeros((len(triangles), 3), bool)
     h, g = table.half_edges[table.uses == 2].T
+    # two triangles are cut together where the side between them is bent
+    over = are_bent(surface, chart, uv).ravel()[h]
+    group = components(len(triangles), np.stack([h[over] // 3, g[over] // 3], axis=1))
+    is_cut = np.isin(group, group[is_left])
+    alone = np.zeros((len(triangles), 3), bool)
     for own, other in ((h, g), (g, h)):
         alone[own // 3, own % 3] = is_cut[own // 3] & ~is_cut[other // 3]
     rows = np.flatnonzero(is_cut)
