@@ -193,9 +193,10 @@ def _bent_parts(
     known: KnownSurfaces, surface: BoundedSurface, triangles: NDArray[np.int32],
     whole: NDArray[np.bool_], is_left: NDArray[np.bool_],
 ) -> _BentParts | None:  # fmt: skip
-    """None where the sides of those that are left are straight enough in (u, v)."""
+    """None where the sides of those that are left are straight enough in (u, v), or where no axis
+    runs to an elongated pole."""
     chart, uv = Chart.of(surface), known.uv(triangles)
-    if not are_bent(surface, chart, uv[is_left]).any():
+    if chart.core.scaling is None or not are_bent(surface, chart, uv[is_left]).any():
         return None
     corners = known.corners.uv_triangles[triangles]
     table = connect(np.ascontiguousarray(corners, np.int32))
