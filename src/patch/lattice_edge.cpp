@@ -38,7 +38,7 @@ std::optional<Point2> lattice_edge(const Surface& surface, const Chart& chart, P
     const Point2 turn = turned(smaller / larger);
     const Point2 along = first_larger ? d2 : d1, across = first_larger ? d1 : d2;
     const Point2 uv = turn.x * along + turn.y * across;
-    const Point2 direction{uv.x / at.rates.x, uv.y / at.rates.y};
+    const Point2 direction = at.direction(uv);
     if (!std::isfinite(direction.x) || !std::isfinite(direction.y)) return std::nullopt;
     return direction;
 }

@@ -128,18 +128,18 @@ void PatchState::set_sized_frames(std::span<const Vertex> vertices, bool on_kink
 }
 
 void PatchState::set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink) {
-    Array<Point2> uv(vertices.size()), rates(vertices.size());
+    Array<Point2> uv(vertices.size());
+    Array<ChartPoint> at(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const ChartPoint at = setting_.chart.at(t.xy[vertices[k]]);
-        uv[k] = at.uv;
-        rates[k] = at.rates;
+        at[k] = setting_.chart.at(t.xy[vertices[k]]);
+        uv[k] = at[k].uv;
     }
     Array<Point3> ru, rv;
     if (on_kink) read_mean_slopes(reader, uv, ru, rv);
     reader.read(uv, 1);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Point3 du = on_kink ? ru[k] : reader[1][k], dv = on_kink ? rv[k] : reader[2][k];
-        set_frame(t, frames, vertices[k], {reader[0][k], rates[k].x * du, rates[k].y * dv},
+        set_frame(t, frames, vertices[k], {reader[0][k], at[k].by_x(du, dv), at[k].by_y(du, dv)},
                   largest_);
     }
 }

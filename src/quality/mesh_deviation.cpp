@@ -15,6 +15,8 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t BLOCK = 1024;  // places looked at together
+constexpr double ASTRAY = 0.05;      // of the size: a foot this far is looked for from corners too
+constexpr int PATIENT_STEPS = 60;    // of that search: beside elongated poles many steps lead astray
 constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
                  CENTROID_WEIGHT = 9.0 / 20.0;
@@ -23,11 +25,13 @@ constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
 struct Places {
     Array<Point3> points;
     Array<Point2> uv;
+    Array<std::int32_t> triangle;
     Array<double> area, squared;  // of the triangle; distances squared, which are filled in
 
     void resize(std::size_t count) {
         points.resize(count);
         uv.resize(count);
+        triangle.resize(count);
         area.resize(count);
         squared.resize(count);
     }
@@ -209,6 +213,7 @@ class Measure {
                 places_.points[j] =
                     middle(mesh_.points[corner(k, side)], mesh_.points[corner(k, next)]);
                 places_.uv[j] = middle(mesh_.uv[corner(q, side)], mesh_.uv[corner(q, next)]);
+                places_.triangle[j] = static_cast<std::int32_t>(t);
                 places_.area[j] = area_[t];
             }
             measure(surface);
@@ -226,6 +231,7 @@ class Measure {
                 places_.points[j] =
                     centroid(mesh_.points[k.a], mesh_.points[k.b], mesh_.points[k.c]);
                 places_.uv[j] = centroid(mesh_.uv[q.a], mesh_.uv[q.b], mesh_.uv[q.c]);
+                places_.triangle[j] = some[j];
                 places_.area[j] = area_[some[j]];
             }
             surface.read(all(places_.uv), 1);
@@ -309,6 +315,31 @@ class Measure {
         set_distances(closest_points_across_sides(surface, all(chosen(places_.points)),
                                                   all(chosen(places_.uv)), PROJECTION_STEPS)
                           .distance);
+        look_from_corners(surface);
+    }
+
+    /// Of the places ``left_`` whose feet are far: is there a nearer one that a search from the
+    /// corners finds? Where sides are bent the middle of parameters may lie far from the triangle.
+    void look_from_corners(SurfaceReader& surface) {
+        std::size_t kept = 0;
+        for (const std::int32_t j : left_)
+            if (places_.squared[j] > ASTRAY * ASTRAY * places_.area[j]) left_[kept++] = j;
+        left_.resize(kept);
+        if (left_.empty()) return;
+        Array<ParameterTriangle> corners;
+        Array<std::int64_t> own;
+        for (const std::int32_t j : left_) {
+            const TriangleCorners& q = mesh_.uv_triangles[places_.triangle[j]];
+            own.push_back(static_cast<std::int64_t>(corners.size()));
+            corners.push_back({mesh_.uv[q.a], mesh_.uv[q.b], mesh_.uv[q.c]});
+        }
+        const ClosestPoints found = closest_points_in_triangles(
+            surface, all(chosen(places_.points)), all(chosen(places_.uv)), all(corners), all(own),
+            0.0, PATIENT_STEPS);
+        for (std::size_t k = 0; k < left_.size(); ++k) {
+            double& squared = places_.squared[left_[k]];
+            squared = std::min(squared, found.distance[k] * found.distance[k]);
+        }
     }
 
     [[nodiscard]] bool is_near(const Offset& offset, std::size_t j) const {

@@ -1,6 +1,7 @@
 #include "sizing/bounded_features.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,7 @@ Array<ParameterBox> boxes_of(const Chart& chart, const SeenCells& cells, std::si
                              std::size_t count) {
     Array<ParameterBox> boxes(count);
     for (std::size_t i = 0; i < count; ++i)
-        boxes[i] = {chart.to_uv(cells.low[first + i]), chart.to_uv(cells.high[first + i])};
+        boxes[i] = chart.to_box(cells.low[first + i], cells.high[first + i]);
     return boxes;
 }
 
@@ -57,6 +58,20 @@ Point2 largest_squares(const SeenCells& cells, std::size_t cell) {
         found.x = most(found.x, root.xx * root.xx + root.xy * root.xy);
         found.y = most(found.y, root.xy * root.xy + root.yy * root.yy);
     }
+    return found;
+}
+
+/// Bounds of the second fundamental form in the plane, from those of its parts in (u, v).
+std::array<double, 3> in_plane(const ChartPoint& at, const double (&form)[3]) {
+    const auto [du, dv] = at.rates;
+    std::array<double, 3> found{std::abs(du * du) * form[0], std::abs(du * dv) * form[1],
+                                std::abs(dv * dv) * form[2]};
+    if (!at.is_crossed()) return found;
+    const auto [across, up] = at.crossed;  // du/dy, dv/dx
+    found[0] += 2.0 * std::abs(du * up) * form[1] + up * up * form[2];
+    found[1] += std::abs(du * across) * form[0] + std::abs(up * across) * form[1] +
+                std::abs(up * dv) * form[2];
+    found[2] += across * across * form[0] + 2.0 * std::abs(across * dv) * form[1];
     return found;
 }
 
@@ -113,17 +128,15 @@ void BoundedFeatures::bound_curvature(const SeenCells& cells, std::size_t first,
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t cell = first + i;
         const Point2 middle = 0.5 * (cells.low[cell] + cells.high[cell]);
-        const auto [du, dv] = chart_.at(middle).rates;
-        const double scale[] = {du * du, du * dv, dv * dv};
-        double form[3];  // |L|, |M|, |N| at most
+        double form[3];  // |r_uu|, |r_uv|, |r_vv| along the normal at most
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t row = BOUNDED_DERIVATIVES * i + 2 + j;
-            form[j] =
-                std::abs(scale[j]) * largest_along(lower[row], upper[row], cells.normal[cell]);
+            form[j] = largest_along(lower[row], upper[row], cells.normal[cell]);
         }
+        const auto [xx, xy, yy] = in_plane(chart_.at(middle), form);
         const auto [e, g] = largest_squares(cells, cell);
-        const double l = form[0] / e, n = form[2] / g;
-        const double bound = std::sqrt(l * l + 2.0 * (form[1] * form[1]) / (e * g) + n * n);
+        const double l = xx / e, n = yy / g;
+        const double bound = std::sqrt(l * l + 2.0 * (xy * xy) / (e * g) + n * n);
         k[i] = std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
     }
 }
@@ -156,8 +169,7 @@ void BoundedFeatures::keep_rising(const SeenCells& cells, std::span<const std::i
         const std::size_t count = last - first;
         Array<ParameterBox> boxes(count);
         for (std::size_t i = 0; i < count; ++i)
-            boxes[i] = {chart_.to_uv(cells.low[some[first + i]]),
-                        chart_.to_uv(cells.high[some[first + i]])};
+            boxes[i] = chart_.to_box(cells.low[some[first + i]], cells.high[some[first + i]]);
         constexpr std::size_t rows = 1 + BOUNDED_DERIVATIVES;
         Array<Point3> lower(rows * count), upper(rows * count);
         const SurfaceStatus status = surface_.all_bounds(

@@ -72,11 +72,10 @@ bool StretchedLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
 /// The surface at some places: what is stored of it, and what rules are asked with.
 void StretchedLaw::read(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes,
                         Places& places, std::span<PlaceTangents> tangents) {
-    Array<Point2> rates(xy.size());
+    Array<ChartPoint> at(xy.size());
     for (std::size_t i = 0; i < xy.size(); ++i) {
-        const ChartPoint at = chart_.at(xy[i]);
-        places.uv[first + i] = at.uv;
-        rates[i] = at.rates;
+        at[i] = chart_.at(xy[i]);
+        places.uv[first + i] = at[i].uv;
     }
     SurfaceValues r;
     const SurfaceStatus status = r.evaluate(surface_, {&places.uv[first], xy.size()}, 2);
@@ -92,10 +91,10 @@ void StretchedLaw::read(std::span<const Point2> xy, std::size_t first, FieldNode
         places.curvature[node] = places.principal[node].k;
         places.degenerate[node] = forms.degenerate ? 1 : 0;
         tangents[node] = {ru, rv};
-        nodes.root[node] = root_of_form(forms, rates[i]);
+        nodes.root[node] = root_of_form(forms, at[i]);
         nodes.normal[node] = forms.normal;
         nodes.point[node] = r[0][i];
-        const Point3 rx = rates[i].x * ru, ry = rates[i].y * rv;
+        const Point3 rx = at[i].by_x(ru, rv), ry = at[i].by_y(ru, rv);
         nodes.jacobian[node] = {{{rx.x, ry.x}, {rx.y, ry.y}, {rx.z, ry.z}}};
     }
 }

@@ -13,9 +13,16 @@ constexpr std::size_t PLACES_TOGETHER = 1024;  // places that are read at a time
 
 }  // namespace
 
-SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates) {
-    const double e = forms.E * rates.x * rates.x, f = forms.F * rates.x * rates.y;
-    const double g = forms.G * rates.y * rates.y;
+SizeTensor root_of_form(const FundamentalForms& forms, const ChartPoint& at) {
+    const auto [rates, crossed] = std::pair(at.rates, at.crossed);
+    double e = forms.E * rates.x * rates.x, f = forms.F * rates.x * rates.y;
+    double g = forms.G * rates.y * rates.y;
+    if (at.is_crossed()) {  // the squares and the product of r_x and r_y
+        e += 2.0 * forms.F * rates.x * crossed.y + forms.G * crossed.y * crossed.y;
+        f += forms.E * rates.x * crossed.x + forms.F * crossed.x * crossed.y +
+             forms.G * crossed.y * rates.y;
+        g += 2.0 * forms.F * rates.y * crossed.x + forms.E * crossed.x * crossed.x;
+    }
     const double s = std::sqrt(most(e * g - f * f, 0.0));
     const double t = std::sqrt(most(e + g + 2.0 * s, std::numeric_limits<double>::min()));
     return {(e + s) / t, f / t, (g + s) / t};
@@ -57,11 +64,11 @@ bool SurfaceLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
 /// The surface at some places: what is stored of it, and what rules are asked with.
 void SurfaceLaw::read(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes,
                       Places& places) {
-    Array<Point2> uv(xy.size()), rates(xy.size());
+    Array<Point2> uv(xy.size());
+    Array<ChartPoint> at(xy.size());
     for (std::size_t i = 0; i < xy.size(); ++i) {
-        const ChartPoint at = chart_.at(xy[i]);
-        uv[i] = at.uv;
-        rates[i] = at.rates;
+        at[i] = chart_.at(xy[i]);
+        uv[i] = at[i].uv;
     }
     SurfaceValues r;
     const SurfaceStatus status = r.evaluate(surface_, {uv.data(), uv.size()}, 2);
@@ -75,7 +82,7 @@ void SurfaceLaw::read(std::span<const Point2> xy, std::size_t first, FieldNodes&
         const std::size_t node = first + i;
         places.curvature[node] = principal_curvatures(forms);
         places.degenerate[node] = forms.degenerate ? 1 : 0;
-        nodes.root[node] = root_of_form(forms, rates[i]);
+        nodes.root[node] = root_of_form(forms, at[i]);
         nodes.normal[node] = forms.normal;
         nodes.point[node] = r[0][i];
     }

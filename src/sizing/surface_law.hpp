@@ -37,8 +37,8 @@ struct OuterLimits {
     bool are_targets;                          // sizes within them count as asked for
 };
 
-/// I^(1/2) in the scaled plane, whose axes run at ``rates``.
-[[nodiscard]] SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates);
+/// I^(1/2) in the scaled plane, at a point of it.
+[[nodiscard]] SizeTensor root_of_form(const FundamentalForms& forms, const ChartPoint& at);
 
 class SurfaceLaw : public NodeLaw {
   public:

@@ -92,6 +92,25 @@ double piecewise_linear(const ChartAxis& axis, double u) {
     return (high - low) / (knots[i + 1] - knots[i]) * (u - knots[i]) + low;
 }
 
+/// Where one axis is scaled by the other coordinate; linear beyond its ends.
+ChartPoint scaled_at(const Chart& chart, Point2 xy) {
+    const PoleScaling& scaling = chart.scaling;
+    const bool along_u = scaling.axis == 0;
+    const ChartAxis& radial = along_u ? chart.u : chart.v;
+    const ChartAxis& other = along_u ? chart.v : chart.u;
+    const double s = along_u ? xy.y : xy.x, y = along_u ? xy.x : xy.y;
+    const EvenCubic::Value first = scaling.first.at(s), last = scaling.last.at(s);
+    const double t = y / radial.extent, inside = clipped(t, 0.0, 1.0);
+    const ScaledFraction w =
+        FractionScaling{scaling.poles, scaling.c, first.value, last.value}.at(inside);
+    const ValueAndRate around = other.parameter(s);
+    const ValueAndRate out = radial.parameter(radial.extent * (w.value + (t - inside) * w.by_t));
+    const double turned = w.by_first * first.rate + w.by_last * last.rate;
+    const double rate = out.rate * w.by_t, crossed = out.rate * radial.extent * turned;
+    if (along_u) return {{out.value, around.value}, {rate, around.rate}, {crossed, 0.0}};
+    return {{around.value, out.value}, {around.rate, rate}, {0.0, crossed}};
+}
+
 }  // namespace
 
 double unbent(const Array<BentPiece>& pieces, double s) {
@@ -134,12 +153,43 @@ double ChartAxis::coordinate(double given) const {
 }
 
 ChartPoint Chart::at(Point2 xy) const {
+    if (!scaling.is_none()) return scaled_at(*this, xy);
     const ValueAndRate a = u.parameter(xy.x), b = v.parameter(xy.y);
     return {{a.value, b.value}, {a.rate, b.rate}};
 }
 
+Point2 Chart::to_plane(Point2 uv) const {
+    Point2 xy{u.coordinate(uv.x), v.coordinate(uv.y)};
+    if (scaling.is_none()) return xy;
+    const bool along_u = scaling.axis == 0;
+    double& radial = along_u ? xy.x : xy.y;
+    const double extent = along_u ? u.extent : v.extent;
+    radial = scaling.beside(along_u ? xy.y : xy.x).inverse(radial / extent) * extent;
+    return xy;
+}
+
+ParameterBox Chart::to_box(Point2 low, Point2 high) const {
+    if (scaling.is_none()) return {to_uv(low), to_uv(high)};
+    const bool along_u = scaling.axis == 0;
+    const double first = along_u ? low.y : low.x, last = along_u ? high.y : high.x;
+    const double extent = along_u ? u.extent : v.extent;
+    double& lower = along_u ? low.x : low.y;
+    double& upper = along_u ? high.x : high.y;
+    const auto [least, most] =
+        scaling.between(clipped(lower / extent, 0.0, 1.0), clipped(upper / extent, 0.0, 1.0),
+                        first, last);
+    lower = extent * least;
+    upper = extent * most;
+    return {{u.parameter(low.x).value, v.parameter(low.y).value},
+            {u.parameter(high.x).value, v.parameter(high.y).value}};
+}
+
 Array<Point2> Chart::to_uv(std::span<const Point2> xy) const {
     Array<Point2> uv(xy.size());
+    if (!scaling.is_none()) {
+        for (std::size_t i = 0; i < xy.size(); ++i) uv[i] = to_uv(xy[i]);
+        return uv;
+    }
     fill_parameters(u, xy, &Point2::x, uv);
     fill_parameters(v, xy, &Point2::y, uv);
     return uv;

@@ -7,12 +7,16 @@
 //     u  a----------|----------b    on each piece u is the integral of s^(q0 - 1) (1 - s)^(q1 - 1)
 //     s  a----------|----------b
 //
+// Where an axis runs to an elongated pole it depends on the other coordinate too: pole_scaling.hpp.
+//
 // Charts are made in chart_making.hpp; here they are evaluated.
 #pragma once
 
 #include <optional>
 #include <span>
 
+#include "surfaces/pole_scaling.hpp"
+#include "surfaces/surface.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -49,22 +53,39 @@ struct ChartAxis {
     [[nodiscard]] double coordinate(double u) const;
 };
 
-/// (u, v) and (du/dx, dv/dy).
+/// (u, v), (du/dx, dv/dy), and (du/dy, dv/dx), zero but for scaled poles.
 struct ChartPoint {
-    Point2 uv, rates;
+    Point2 uv, rates, crossed{0.0, 0.0};
+
+    [[nodiscard]] bool is_crossed() const { return crossed.x != 0.0 || crossed.y != 0.0; }
+    /// The direction in the plane of one in (u, v).
+    [[nodiscard]] Point2 direction(Point2 uv) const {
+        if (!is_crossed()) return {uv.x / rates.x, uv.y / rates.y};
+        const double det = rates.x * rates.y - crossed.x * crossed.y;
+        return {(rates.y * uv.x - crossed.x * uv.y) / det,
+                (rates.x * uv.y - crossed.y * uv.x) / det};
+    }
+    /// r_x and r_y from r_u and r_v.
+    [[nodiscard]] Point3 by_x(Point3 ru, Point3 rv) const {
+        return is_crossed() ? rates.x * ru + crossed.y * rv : rates.x * ru;
+    }
+    [[nodiscard]] Point3 by_y(Point3 ru, Point3 rv) const {
+        return is_crossed() ? crossed.x * ru + rates.y * rv : rates.y * rv;
+    }
 };
 
 struct Chart {
     ChartAxis u, v;
+    PoleScaling scaling{};
 
     [[nodiscard]] Point2 extent() const { return {u.extent, v.extent}; }
     [[nodiscard]] ChartPoint at(Point2 xy) const;
     [[nodiscard]] Point2 to_uv(Point2 xy) const { return at(xy).uv; }
     [[nodiscard]] Array<Point2> to_uv(std::span<const Point2> xy) const;
+    /// A box that holds the parameters of a box of the plane.
+    [[nodiscard]] ParameterBox to_box(Point2 low, Point2 high) const;
     /// The plane's point of (u, v), or of the bent parameters where there are some.
-    [[nodiscard]] Point2 to_plane(Point2 uv) const {
-        return {u.coordinate(uv.x), v.coordinate(uv.y)};
-    }
+    [[nodiscard]] Point2 to_plane(Point2 uv) const;
     [[nodiscard]] Array<Point2> to_plane(std::span<const Point2> uv) const;
 };
 

@@ -1,8 +1,10 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include <array>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "binding/arrays.hpp"
@@ -30,11 +32,37 @@ ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<doubl
     return axis;
 }
 
+using Ends = std::pair<Vector<double>, Vector<double>>;
+using Scaling = std::tuple<std::size_t, int, double, Ends>;
+
+PoleScaling scaling_of(const Scaling& given, const Chart& chart) {
+    const auto& [axis, poles, c, ends] = given;
+    if (!(c > 0.0 && c < 1.6)) throw nb::value_error("the angle is not between 0 and pi / 2");
+    if (poles < 0 || poles > 2) throw nb::value_error("the poles are 0, 1 or 2");
+    const double extent = axis == 0 ? chart.v.extent : chart.u.extent;
+    if (axis > 1) throw nb::value_error("the scaled axis is 0 or 1");
+    const auto cubic = [extent](const Vector<double>& values) {
+        if (values.shape(0) < 2) throw nb::value_error("elongations are at least two");
+        for (const double x : rows<double>(values))
+            if (!(x > 0.0)) throw nb::value_error("elongations are not positive");
+        return even_cubic(extent, Array<double>(rows<double>(values)));
+    };
+    return {axis, static_cast<PoleEnds>(poles), c, cubic(ends.first), cubic(ends.second)};
+}
+
+nb::object scaling_in(const Chart& chart) {
+    const PoleScaling& scaling = chart.scaling;
+    if (scaling.is_none()) return nb::none();
+    return nb::cast(
+        std::tuple(scaling.axis, static_cast<int>(scaling.poles), scaling.c,
+                   std::pair(view(scaling.first.values), view(scaling.last.values))));
+}
+
 using Domain = std::pair<std::pair<double, double>, std::pair<double, double>>;
 
 Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
               const std::pair<std::optional<Pieces>, std::optional<Pieces>>& pieces,
-              std::size_t samples) {
+              std::size_t samples, bool to_poles) {
     if (samples < 2 || samples > 100'000) throw nb::value_error("samples are at least two");
     const auto known = [samples](bool is_steady, const std::optional<Pieces>& given) {
         KnownAxis axis{is_steady, {}, samples};
@@ -47,7 +75,7 @@ Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
     Chart made;
     {
         const nb::gil_scoped_release released;
-        made = chart_of(reader, axes);
+        made = chart_of(reader, axes, to_poles);
     }
     raise_failure(surface, reader.status());
     if (reader.failed()) throw nb::value_error("the surface has no first derivatives");
@@ -115,14 +143,19 @@ void bind_charts_of_two_axes(nb::module_& m) {
     nb::class_<Chart>(m, "Chart", "(u, v) of a surface and the scaled plane, axis by axis.")
         .def(
             "__init__",
-            [](Chart* made, const ChartAxis& u, const ChartAxis& v) { new (made) Chart{u, v}; },
-            nb::arg("u"), nb::arg("v"))
+            [](Chart* made, const ChartAxis& u, const ChartAxis& v,
+               const std::optional<Scaling>& scaling) {
+                new (made) Chart{u, v, {}};
+                if (scaling) made->scaling = scaling_of(*scaling, *made);
+            },
+            nb::arg("u"), nb::arg("v"), nb::arg("scaling") = nb::none(),
+            "scaling: as below.")
         .def_static(
             "of", &made_of, nb::arg("surface"), nb::arg("steady"), nb::arg("pieces"),
-            nb::arg("samples"),
+            nb::arg("samples"), nb::arg("to_poles"),
             "The chart of a surface from its speeds. steady: axes along which the speed is the "
             "same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. "
-            "samples: along each axis.")
+            "samples: along each axis. to_poles: axes that run to elongated poles are scaled.")
         .def_static(
             "uniform",
             [](const Domain& domain, std::pair<double, double> speeds) {
@@ -133,6 +166,10 @@ void bind_charts_of_two_axes(nb::module_& m) {
             nb::arg("domain"), nb::arg("speeds"), "Where |r_u| and |r_v| are the same everywhere.")
         .def_prop_ro("u", [](const Chart& chart) { return chart.u; })
         .def_prop_ro("v", [](const Chart& chart) { return chart.v; })
+        .def_prop_ro("scaling", &scaling_in,
+                     "The axis that is scaled towards elongated poles, 0 or 1, which ends are poles (0: "
+                     "the first, 1: the last, 2: both), an angle, and the elongations at both ends, "
+                     "(k,) and (l,) at even places of the other axis: see pole_scaling.hpp; or None.")
         .def(
             "to_uv_and_rates",
             [](const Chart& chart, const Points2& xy) {
@@ -145,6 +182,16 @@ void bind_charts_of_two_axes(nb::module_& m) {
                 return std::pair(view(uv), view(rates));
             },
             nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).")
+        .def(
+            "crossed_rates",
+            [](const Chart& chart, const Points2& xy) {
+                Array<Point2> crossed(xy.shape(0));
+                for (std::size_t i = 0; i < xy.shape(0); ++i)
+                    crossed[i] = chart.at(rows<Point2>(xy)[i]).crossed;
+                return view(crossed);
+            },
+            nb::arg("xy"),
+            "xy (n, 2) -> (du/dy, dv/dx) (n, 2), zero but where an axis is scaled.")
         .def(
             "to_plane",
             [](const Chart& chart, const Points2& uv) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surfaces/elongated_poles.hpp"
 #include "surfaces/monotone_cubic.hpp"
 #include "values/pairwise_sum.hpp"
 
@@ -15,6 +16,9 @@ constexpr std::size_t ACROSS = 17;  // lines along which a surface is sampled
 // speed that is told apart, relative to the mean: a stop is not infinitely long.
 constexpr double UNEVEN = 1.3, SLOWEST = 1e-4;
 constexpr std::size_t KNOTS = 1024;
+
+// How much of an axis around elongated poles is by length, and not by the angle about them.
+constexpr double BY_LENGTH = 0.1;
 
 // Ratio of the length by speeds at the samples to that of the chords between them from which the
 // samples miss something: tan(u) up to 1.57 has 93 % of its length in the last of 257 steps. Then
@@ -31,6 +35,7 @@ struct Lines {
     double low, high;     // of the axis
     double first, last;   // across it
     std::size_t samples;  // along each
+    const Array<double>* turned = nullptr;  // angles about elongated poles, at even steps; or none
 
     [[nodiscard]] double across(std::size_t line) const {
         const double t = (static_cast<double>(line) + 0.5) / static_cast<double>(ACROSS);
@@ -179,6 +184,18 @@ ChartAxis axis_of_chords(const Lines& lines) {
     return axis_of_length(s, length);
 }
 
+/// The axis by the angle about its poles, and a little by length, so that it never stops.
+void mix_in(const Array<double>& angles, Array<double>& speed) {
+    const std::size_t last = speed.size() - 1;
+    const double average = mean(speed);
+    const double by_angle = average * static_cast<double>(last) / (angles[last] - angles[0]);
+    for (std::size_t k = 0; k <= last; ++k) {
+        const std::size_t before = k > 0 ? k - 1 : 0, after = std::min(k + 1, last);
+        const double rate = (angles[after] - angles[before]) / static_cast<double>(after - before);
+        speed[k] = BY_LENGTH * speed[k] + (1.0 - BY_LENGTH) * by_angle * rate;
+    }
+}
+
 /// From speeds on lines across and along, or from chords where the speeds miss something.
 ChartAxis sampled_axis(const Lines& lines) {
     const double range = lines.high - lines.low;
@@ -203,6 +220,7 @@ ChartAxis sampled_axis(const Lines& lines) {
     for (std::size_t k = 0; k + 1 < count; ++k) both[k] = speed[k + 1] + speed[k];
     const double seen = pairwise_sum(both) * 0.5 * range / static_cast<double>(count - 1);
     const double way = mean(ways);
+    if (lines.turned != nullptr) mix_in(*lines.turned, speed);
     if (std::max(seen, way) <= MISSED * std::min(seen, way))
         return axis_of_speeds(lines.low, lines.high, std::move(speed));
     return axis_of_chords(lines);
@@ -220,19 +238,33 @@ ChartAxis linear_axis(double low, double high, double speed) {
     return axis;
 }
 
-Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known) {
+Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known, bool to_poles) {
     const auto [low, high] = surface.domain();
     const double ends[2][2] = {{low.x, high.x}, {low.y, high.y}};
-    std::array<ChartAxis, 2> axes;
-    for (std::size_t k = 0; k < 2; ++k) {
+    const auto lines_along = [&](std::size_t k) {
         const auto& [first, last] = ends[k];
         const auto& [left, right] = ends[1 - k];
-        const Lines lines{surface, k, known[k].pieces, first, last, left, right, known[k].samples};
-        axes[k] =
-            known[k].steady && lines.pieces.empty() ? steady_axis(lines) : sampled_axis(lines);
-        axes[k].pieces = lines.pieces;
+        return Lines{surface, k, known[k].pieces, first, last, left, right, known[k].samples};
+    };
+    const auto axis_along = [&](std::size_t k, const Lines& lines) {
+        const bool steady = known[k].steady && lines.pieces.empty();
+        ChartAxis axis = steady ? steady_axis(lines) : sampled_axis(lines);
+        axis.pieces = lines.pieces;
+        return axis;
+    };
+    Chart made{axis_along(0, lines_along(0)), axis_along(1, lines_along(1))};
+    if (!to_poles) return made;
+    const std::optional<ElongatedPoles> poles = find_elongated_poles(surface, made);
+    if (!poles) return made;
+    const std::size_t around = 1 - poles->axis;
+    if (known[around].pieces.empty() && !known[around].steady) {
+        Lines lines = lines_along(around);
+        lines.samples = poles->turned.size();
+        lines.turned = &poles->turned;
+        (around == 0 ? made.u : made.v) = axis_along(around, lines);
     }
-    return {axes[0], axes[1]};
+    made.scaling = scaling_by(surface, made, *poles);
+    return made;
 }
 
 }  // namespace surfmesh

@@ -5,7 +5,8 @@
 // function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v: lengths of the
 // surface's own order, on which predicates keep their digits. Where the mean speed hardly changes
 // the function is linear, otherwise a monotone cubic spline, once differentiable. Where speeds
-// have no bound (square roots) it is a function of the bent parameter instead.
+// have no bound (square roots) it is a function of the bent parameter instead. About elongated
+// poles the axis that runs there is scaled by the distance from them: see pole_scaling.hpp.
 #pragma once
 
 #include <array>
@@ -32,8 +33,10 @@ struct KnownAxis {
     std::size_t samples = CHART_SAMPLES;  // along it, at least two
 };
 
-/// Sampled where nothing is known; the reader says whether it could be.
-Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known);
+/// Sampled where nothing is known; the reader says whether it could be. `to_poles`: elongated poles
+/// are looked for, which is for surfaces over a whole rectangle.
+Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known,
+               bool to_poles = false);
 
 /// Stretched by the same factor everywhere.
 ChartAxis linear_axis(double low, double high, double speed);

@@ -247,12 +247,13 @@ CHART_SAMPLES_OF_PIECE: int = 32
 class Chart:
     """(u, v) of a surface and the scaled plane, axis by axis."""
 
-    def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
+    def __init__(self, u: ChartAxis, v: ChartAxis, scaling: tuple[int, int, float, tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]]] | None = None) -> None:
+        """scaling: as below."""
 
     @staticmethod
-    def of(surface: Surface, steady: tuple[bool, bool], pieces: tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None, Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None], samples: int) -> Chart:
+    def of(surface: Surface, steady: tuple[bool, bool], pieces: tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None, Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None], samples: int, to_poles: bool) -> Chart:
         """
-        The chart of a surface from its speeds. steady: axes along which the speed is the same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. samples: along each axis.
+        The chart of a surface from its speeds. steady: axes along which the speed is the same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. samples: along each axis. to_poles: axes that run to elongated poles are scaled.
         """
 
     @staticmethod
@@ -265,8 +266,17 @@ class Chart:
     @property
     def v(self) -> ChartAxis: ...
 
+    @property
+    def scaling(self) -> object:
+        """
+        The axis that is scaled towards elongated poles, 0 or 1, which ends are poles (0: the first, 1: the last, 2: both), an angle, and the elongations at both ends, (k,) and (l,) at even places of the other axis: see pole_scaling.hpp; or None.
+        """
+
     def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
+
+    def crossed_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """xy (n, 2) -> (du/dy, dv/dx) (n, 2), zero but where an axis is scaled."""
 
     def to_plane(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
         """

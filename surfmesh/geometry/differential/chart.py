@@ -1,7 +1,8 @@
 """The chart of a surface, the scaled plane (x, y): u and v stretched so that speeds are about one.
 
 x is a function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v. The core makes
-it (src/surfaces/chart_making.hpp) and evaluates it; here is what is known of a surface before it is
+it (src/surfaces/chart_making.hpp) and evaluates it, and scales an axis that runs to elongated poles;
+here is what is known of a surface before it is
 sampled, and the way to bent parameters, for which SciPy inverts the incomplete beta function.
 """
 
@@ -31,7 +32,7 @@ class Chart:
     def __reduce__(self) -> tuple[Callable[..., Chart], tuple]:
         axes = self.core.u, self.core.v
         arrays = tuple((axis.extent, axis.knots, axis.slopes) for axis in axes)
-        return _of_arrays, (arrays, self.bent)
+        return _of_arrays, (arrays, self.bent, self.core.scaling)
 
     @classmethod
     def of(cls, surface: Surface) -> Chart:
@@ -41,8 +42,9 @@ class Chart:
         if pieces is not None:
             samples = min(CHART_SAMPLES_OF_PIECE * pieces + 1, CHART_SAMPLES)
         made = surfaces.Chart.of(
-            as_core_surface(surface), steady_axes(surface), _pieces(bent), samples
-        )
+            as_core_surface(surface), steady_axes(surface), _pieces(bent), samples,
+            to_poles=not len(surface.loops),
+        )  # fmt: skip
         return cls(made, bent)
 
     @classmethod
@@ -86,10 +88,10 @@ def _pieces(bent: BentAxes) -> tuple[np.ndarray | None, np.ndarray | None]:
     return u, v
 
 
-def _of_arrays(arrays: tuple, bent: BentAxes) -> Chart:
+def _of_arrays(arrays: tuple, bent: BentAxes, scaling: tuple | None) -> Chart:
     """The chart that was taken apart for another process."""
     u, v = (
         surfaces.ChartAxis(extent, knots, slopes, own)
         for (extent, knots, slopes), own in zip(arrays, _pieces(bent), strict=True)
     )
-    return Chart(surfaces.Chart(u, v), bent)
+    return Chart(surfaces.Chart(u, v, scaling), bent)

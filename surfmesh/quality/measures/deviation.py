@@ -17,11 +17,13 @@ from surfmesh._core.quality import (
     largest_values,
     mesh_deviation,
 )
-from surfmesh.accuracy.deviation import STEPS
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import Point
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+PATIENT_STEPS = 60
+"""Of a search for a nearest point: beside elongated poles many lead astray. Most need two."""
 
 SECOND_LOOK, ONE_IN = 400, 250  # so many triangles are sampled densely, or one in so many if that
 # is more
@@ -98,13 +100,13 @@ def _second_look(
     worst = worst[~in_plane]
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     by_triangle[worst], triangle, point, uv = dense_deviation(
-        *known.arrays, worst, DENSE, chord, STEPS
+        *known.arrays, worst, DENSE, chord, PATIENT_STEPS
     )
     for _ in range(len(worst)):  # the largest by searches from its corners too
         own = worst[by_triangle[worst].argmax()][None]
         before = float(by_triangle[own[0]])
         by_triangle[own], triangle, point, uv = dense_deviation(
-            *known.arrays, own, DENSE, 0.0, STEPS
+            *known.arrays, own, DENSE, 0.0, PATIENT_STEPS
         )
         if not by_triangle[own[0]] < before:
             break

@@ -1,7 +1,7 @@
 """Is the mesh homeomorphic to its surface or model? Answered by counting and exact predicates.
 
 Each face of the mesh, cut open along its seams as in (u, v), has to consist of discs with holes
-whose triangles all run the same way round there: then it is the face it stands for, and faces and
+whose triangles all run the same way round there, or in the plane that was meshed: then it is the face it stands for, and faces and
 seams are joined by number as those of the model are. Where a narrow face touches itself between two
 of its edges, all together may still be the closed surface that its Euler number says. See
 docs/proof.md.
@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from surfmesh._core.triangulation import first_not_ccw
 from surfmesh.geometry.components import components
+from surfmesh.geometry.differential.chart import Chart
+from surfmesh.geometry.surface import Surface
 from surfmesh.quality.measures.against_model import Unexpected
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import face_in_words
@@ -92,7 +94,8 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
     uv, triangles = known.corners.uv_points[used], triangles.reshape(-1, 3)
     if not np.isfinite(uv).all():
         return "its parameters are not finite"
-    if not _run_one_way(uv, triangles):
+    surface = known.mesh.surfaces[int(known.mesh.face_ids[rows[0]])]
+    if not _run_one_way(uv, triangles) and not _run_one_way(_in_plane(surface, uv), triangles):
         return "triangles do not all run the same way round in (u, v)"
     flat = topology(_plane_mesh(uv, triangles))
     places = triangles == flat.pinched_vertices[:, None, None]
@@ -104,7 +107,7 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
         return TOUCHES
     if flat.euler != 2 * flat.components - flat.boundary_loops:  # each has at most 2 less its loops
         return f"it has {flat.boundary_loops} boundary loops, and the Euler number {flat.euler}"
-    loops = len(known.mesh.surfaces[int(known.mesh.face_ids[rows[0]])].loops)
+    loops = len(surface.loops)
     if loops and loops != flat.boundary_loops:
         return f"it has {flat.boundary_loops} boundary loops instead of {loops}"
     return ""
@@ -137,6 +140,11 @@ def _run_one_way(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> bool:
     if first_not_ccw(xy, ccw) < 0:
         return True
     return first_not_ccw(xy, np.ascontiguousarray(ccw[:, ::-1])) < 0
+
+
+def _in_plane(surface: Surface, uv: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where sides are straight: in the plane that was meshed, which is (u, v) with its axes bent."""
+    return Chart.of(surface).to_plane(uv)
 
 
 def _plane_mesh(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> SurfaceMesh:

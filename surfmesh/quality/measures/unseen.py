@@ -16,8 +16,11 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import TriangleStars, corner_places, hidden_bounds
 from surfmesh._core.space import PointTree, triangle_planes
+from surfmesh.geometry.components import components
 from surfmesh.geometry.core_surface import as_core_surface
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import BoundedSurface
+from surfmesh.quality.measures.bent_sides import BentPieces, are_bent, cut_in_plane
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.hidden_search import (
     BOXES,
@@ -30,6 +33,7 @@ from surfmesh.quality.measures.hidden_search import (
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import Tolerances
+from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLACK = 1.3
@@ -137,19 +141,76 @@ def _in_triangles(
         as_core_surface(surface), points, corners, uv_points, uv_corners, triangles,
         SLACK * expected, fit.by_triangle[triangles], whole.view(np.uint8), LEVELS,
     )  # fmt: skip
-    left = np.flatnonzero(bounded == 0)
-    triangles = triangles[left]
-    normal, _, _ = triangle_planes(points, corners, triangles)
-    pieces = Pieces.of(
-        known.uv(triangles), points[corners[triangles, 0]], normal[:, None], SLACK * expected[left]
-    )
-    if len(left):
-        around = _Around(known.mesh, triangles)
-        budget = BOXES + BOXES_EACH * len(corners)
-        search_triangles(surface, pieces, whole[left], around.deviation, budget)
+    return _of_triangles(
+        *_left(known, surface, triangles, SLACK * expected, whole, bounded == 0)
+    )  # fmt: skip
+
+
+def _of_triangles(triangles: Rows, pieces: Pieces) -> tuple[Rows, Pieces]:
+    """What is open, once for each triangle: what was found farthest off, or may hide highest."""
+    bad = np.flatnonzero(pieces.is_open)
+    order = bad[np.lexsort((-pieces.possible[bad], -pieces.reached[bad]))]
+    _, first = np.unique(triangles[order], return_index=True)
+    chosen = order[first]
+    return triangles[chosen], Pieces(*(getattr(pieces, name)[chosen] for name in vars(pieces)))
+
+
+def _left(
+    known: KnownSurfaces, surface: BoundedSurface, triangles: NDArray[np.int32],
+    tolerance: NDArray[np.float64], whole: NDArray[np.bool_], is_left: NDArray[np.bool_],
+) -> tuple[Rows, Pieces]:  # fmt: skip
+    """What was found in triangles that are left, and in those with bent sides where some are."""
+    uv, parts = known.uv(triangles), None
+    if is_left.any():
+        parts = _bent_parts(known, surface, triangles, whole, is_left)
+    if parts is None:
+        of = np.flatnonzero(is_left)
+        corners, wholly = uv[of], whole[of]
+    else:
+        of = np.concatenate([np.flatnonzero(parts.straight), parts.rows[parts.pieces.owner]])
+        corners = np.concatenate([uv[parts.straight], parts.pieces.uv])
+        wholly = np.concatenate([whole[parts.straight], np.zeros(len(parts.pieces.uv), bool)])
+    _, points, rows, *_ = known.arrays
+    own = triangles[of]
+    normal, _, _ = triangle_planes(points, rows, own)
+    pieces = Pieces.of(corners, points[rows[own, 0]], normal[:, None], tolerance[of])
+    if len(of):
+        around = _Around(known.mesh, own)
+        search_triangles(
+            surface, pieces, wholly, around.deviation, BOXES + BOXES_EACH * len(rows)
+        )  # fmt: skip
         climb(surface, pieces, around.deviation)
-    bad = pieces.is_open
-    return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
+    return own, pieces
+
+
+class _BentParts(NamedTuple):
+    straight: NDArray[np.bool_]  # (k,) triangles that are looked at as they are
+    rows: Rows  # those that are cut
+    pieces: BentPieces
+
+
+def _bent_parts(
+    known: KnownSurfaces, surface: BoundedSurface, triangles: NDArray[np.int32],
+    whole: NDArray[np.bool_], is_left: NDArray[np.bool_],
+) -> _BentParts | None:  # fmt: skip
+    """None where the sides of those that are left are straight enough in (u, v), or where no axis
+    runs to an elongated pole."""
+    chart, uv = Chart.of(surface), known.uv(triangles)
+    if chart.core.scaling is None or not are_bent(surface, chart, uv[is_left]).any():
+        return None
+    corners = known.corners.uv_triangles[triangles]
+    table = connect(np.ascontiguousarray(corners, np.int32))
+    h, g = table.half_edges[table.uses == 2].T
+    # two triangles are cut together where the side between them is bent
+    over = are_bent(surface, chart, uv).ravel()[h]
+    group = components(len(triangles), np.stack([h[over] // 3, g[over] // 3], axis=1))
+    is_cut = np.isin(group, group[is_left])
+    alone = np.zeros((len(triangles), 3), bool)
+    for own, other in ((h, g), (g, h)):
+        alone[own // 3, own % 3] = is_cut[own // 3] & ~is_cut[other // 3]
+    rows = np.flatnonzero(is_cut)
+    pieces = cut_in_plane(chart, uv[rows], whole[rows], alone[rows])
+    return _BentParts(is_left & ~is_cut, rows, pieces)
 
 
 def _along_rims(
