@@ -107,7 +107,8 @@ def surface_sizing(draw: Random, truth: surfaces.Truth) -> sm.Sizing:
     if draw.random() < 0.3:
         asked["angle"] = draw.uniform(5, 40)
     if draw.random() < 0.3:
-        asked["max_size"] = diagonal * draw.uniform(0.03, 0.3)
+        drawn = diagonal * draw.uniform(0.03, 0.3)
+        asked["max_size"] = max(drawn, asked.get("size", 0.0))  # a size above it is refused
     if draw.random() < 0.3:
         asked["anisotropy"] = draw.choice(STRETCH)
     return sm.Sizing(**asked)

@@ -54,10 +54,22 @@ LINES = [  # formula, length of all kinks in (u, v)
     ("abs(u - 1)", 0),  # on a side
     ("max(u, 0) + min(u, 0)", 0),  # no kink at all
     ("abs(abs(u) - 0.001)", 6),
+    ("abs(abs(u) - abs(v))", 4 + 4 * math.sqrt(2)),  # a kink that is bent where it meets others
+    ("abs(2*abs(u - 0.1) - abs(v + 0.05))", 4 + 2 * math.sqrt(5)),
+    ("abs(abs(abs(u) - 0.5) - abs(v))", 8 + 4 * math.sqrt(2)),
     ("max(0, 1 - 1000*abs(u - 0.5137))", 6),
     ("sqrt(u**2)", 2),
     (sp.Piecewise((sp.Symbol("u") ** 2, sp.Symbol("u") > 0), (-sp.Symbol("u"), True)), 2),
 ]
+
+
+@pytest.mark.parametrize("high", [1.2, 1.0])
+def test_kinks_of_kinks_share_their_meetings(high):
+    surface = sm.ParametricSurface(
+        "u", "v", "abs(2*abs(u-0.1)-abs(v+0.05))", u=(-1, 1), v=(-1, high)
+    )
+    mesh = sm.mesh(surface, chord=0.01)
+    assert mesh.report.clean and not mesh.warnings and len(mesh.triangles) < 250
 
 
 @pytest.mark.parametrize("z, wanted", LINES, ids=str)

@@ -118,13 +118,16 @@ def _meeting(
 ) -> NDArray[np.float64] | None:
     """The point (2,) where both guides are zero, by Newton's method from ``place``."""
     found = place.copy()
+    slope: NDArray[np.float64] | None = None
     for _ in range(NEWTON):
         g = np.array([guides.values(guide, found[None])[0] for guide in (one, two)])
-        slope = g[:, 1:] * guides.width
         if not np.isfinite(g).all():
             return None
-        determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
-        if not abs(determinant) > 1e-12 * np.prod(np.linalg.norm(slope, axis=1)):
+        here = g[:, 1:] * guides.width
+        determinant = here[0, 0] * here[1, 1] - here[0, 1] * here[1, 0]
+        if abs(determinant) > 1e-12 * np.prod(np.linalg.norm(here, axis=1)):
+            slope = here  # else on a kink of a guide itself, as of ||u| - |v||: that beside it
+        if slope is None:
             return None
         found = found - least_squares(slope, g[:, 0], 0.0) * guides.width
         found = np.clip(found, guides.lo, guides.hi)
@@ -153,6 +156,8 @@ def _pieces(guides: Guides, line: KinkLine, cuts: list, near: float) -> list[Kin
         runs.append(last)
     made = []
     for begin, run, end in runs:
+        if begin is not None and end is not None and _goes_round(guides, begin, run, end, near):
+            continue
         inner = run
         for stop in stops:  # what lies beside a meeting may lie on the wrong side of it
             apart = np.abs((inner - stop) / guides.width).max(axis=1)
@@ -168,6 +173,13 @@ def _pieces(guides: Guides, line: KinkLine, cuts: list, near: float) -> list[Kin
         if len(points) > 1:
             made.append(KinkLine(points, line.guide, False))
     return made
+
+
+def _goes_round(guides: Guides, begin: NDArray, run: NDArray, end: NDArray, near: float) -> bool:
+    """Is a piece the way between two crossings that are one meeting: three lines at a point?"""
+    if np.abs((end - begin) / guides.width).max() > SHORTEST:
+        return False
+    return bool((np.abs((run - begin) / guides.width) <= near).all())
 
 
 def _onto_side(guides: Guides, guide: int, end: NDArray) -> NDArray[np.float64]:
