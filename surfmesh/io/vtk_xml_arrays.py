@@ -1,5 +1,5 @@
-"""The arrays of VTK's XML files: as text, in base64 or appended, of either byte order; compressed by
-zlib, lzma or lz4.
+"""The arrays of VTK's XML files: as text, in base64 or appended, of either byte order; compressed
+by zlib, lzma or lz4.
 
 No number of the file makes memory before the bytes that it counts are known to be there.
 Format: "VTK XML file formats", https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
