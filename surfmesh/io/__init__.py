@@ -7,7 +7,7 @@ stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med, su2, medit:
     ``write`` and ``read``.
 dagmc: solids with materials for DAGMC (.h5m), through another library; written only.
 pvtu: a mesh in several .vtu files and an index of them.
-ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
+ply_reading, msh_reading, vtk_xml_reading, vtk_xml_arrays, lz4_block, xml_writing: parts of these.
 to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.
 group_record, colours: what is known of faces, solids and edges, in formats that have no place
     for it, and colours as bytes.

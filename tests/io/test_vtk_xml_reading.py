@@ -305,7 +305,7 @@ def test_a_dictionary_of_lzma_beyond_its_memory_is_refused(tmp_path, monkeypatch
     text = grid(arrays(), root=root, written=binary(block, packed(1, 16, 0, len(block))))
     (tmp_path / "part.vtu").write_text(text)
     assert read(tmp_path / "part.vtu").face_ids.tolist() == [0, 1, 2, 3]
-    monkeypatch.setattr("surfmesh.io.vtk_xml_reading.LZMA_MEMORY", 1 << 20)
+    monkeypatch.setattr("surfmesh.io.vtk_xml_arrays.LZMA_MEMORY", 1 << 20)
     with pytest.raises(FileFormatError, match=r"damaged: Memory usage limit"):
         read(tmp_path / "part.vtu")
 

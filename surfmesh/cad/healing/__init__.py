@@ -6,6 +6,7 @@ creases: faces whose surface has creases inside are cut along them.
 sphere_poles: spheres are turned where an edge passes a pole: there its p-curve in (u, v) leaps by
     half a turn.
 joining: what is asked of bodies and faces that touch: sewing, imprinting, with their tolerances.
+shell_bodies: closed shells become solids; one that looks inward within another is a void of that.
 sewing: loose faces are joined along edges that lie within a tolerance; closed shells become solids.
 imprinting: touching bodies share their faces: the general fuse of OCP, with all names carried
     along.

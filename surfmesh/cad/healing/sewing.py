@@ -15,9 +15,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from OCP.BOPAlgo import BOPAlgo_Builder, BOPAlgo_MakerVolume
-from OCP.BRep import BRep_Builder, BRep_Tool
+from OCP.BRep import BRep_Tool
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy, BRepBuilderAPI_Sewing
-from OCP.BRepClass3d import BRepClass3d_SolidClassifier
 from OCP.BRepTools import BRepTools_Quilt
 from OCP.TopAbs import (
     TopAbs_COMPOUND,
@@ -25,16 +24,15 @@ from OCP.TopAbs import (
     TopAbs_EDGE,
     TopAbs_FACE,
     TopAbs_FORWARD,
-    TopAbs_IN,
     TopAbs_REVERSED,
     TopAbs_SHELL,
     TopAbs_SOLID,
-    TopAbs_VERTEX,
     TopAbs_WIRE,
 )
-from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Solid
+from OCP.TopoDS import TopoDS, TopoDS_Shape
 
 from surfmesh.cad.healing.origins import Origins, remarks_again, tags_again
+from surfmesh.cad.healing.shell_bodies import Body, PartPath, SewnShell, bodies_of
 from surfmesh.cad.model.cad_model import Colour
 from surfmesh.cad.parts import Detail, Part
 from surfmesh.cad.sub_shapes import (
@@ -48,9 +46,6 @@ from surfmesh.cad.sub_shapes import (
     unique,
 )
 from surfmesh.errors import CadError
-
-Path = tuple[int, ...]
-"""Of a part: which child of which child of the root."""
 
 _MADE_OF = {
     TopAbs_COMPOUND: TopAbs_FACE, TopAbs_COMPSOLID: TopAbs_FACE, TopAbs_SOLID: TopAbs_FACE,
@@ -70,7 +65,7 @@ def sewn(root: Part, tolerance: float) -> Part:
         return root.noted([(None, "sewn: there are no loose faces")])
     history = _Sewn([entry.face for entry in loose], tolerance)
     shells = _shells(history, loose, dict(paths))
-    bodies = _bodies(shells)
+    bodies = bodies_of(shells)
     origins = Origins(root, history)
     for shell in shells:
         for face, colour in shell.inherited:
@@ -82,29 +77,10 @@ def sewn(root: Part, tolerance: float) -> Part:
 @dataclass(frozen=True)
 class _Loose:
     face: TopoDS_Shape
-    path: Path
+    path: PartPath
 
 
-@dataclass
-class _Shell:
-    """faces of one piece. path: of the part that it belongs to. inherited: colours that faces
-    have from parts below that. inward: its faces, as they came, look at what it encloses."""
-
-    shape: TopoDS_Shape
-    path: Path
-    inherited: list
-    inward: bool
-
-
-@dataclass
-class _Body:
-    """What has become of a shell: a solid where it is closed, or it alone."""
-
-    shape: TopoDS_Shape
-    path: Path
-
-
-def _with_paths(part: Part, path: Path = ()) -> Iterable[tuple[Path, Part]]:
+def _with_paths(part: Part, path: PartPath = ()) -> Iterable[tuple[PartPath, Part]]:
     yield path, part
     for number, child in enumerate(part.children):
         yield from _with_paths(child, (*path, number))
@@ -265,7 +241,7 @@ def _regions(faces: list[TopoDS_Shape]) -> list[TopoDS_Shape]:
     return found
 
 
-def _shells(history: _Sewn, loose: list[_Loose], parts: dict[Path, Part]) -> list[_Shell]:
+def _shells(history: _Sewn, loose: list[_Loose], parts: dict[PartPath, Part]) -> list[SewnShell]:
     """What hangs together, with the part it belongs to."""
     of: ByShape[list[tuple[_Loose, TopoDS_Shape]]] = ByShape()  # new face -> old ones
     for entry in loose:
@@ -281,11 +257,11 @@ def _shells(history: _Sewn, loose: list[_Loose], parts: dict[Path, Part]) -> lis
         path = _common([below for _, below in origins])
         colours = [(face, _colour(parts, path, below)) for face, below in origins]
         is_inward = (content(piece, 3) < 0.0) != (turned > 0)
-        found.append(_Shell(piece, path, [(f, c) for f, c in colours if c], is_inward))
+        found.append(SewnShell(piece, path, [(f, c) for f, c in colours if c], is_inward))
     return found
 
 
-def _common(paths: list[Path]) -> Path:
+def _common(paths: list[PartPath]) -> PartPath:
     """The longest beginning that all have."""
     if not paths:
         return ()
@@ -294,7 +270,7 @@ def _common(paths: list[Path]) -> Path:
     return first[: min(len(first), len(last)) if same is None else same]
 
 
-def _colour(parts: dict[Path, Part], path: Path, below: Path) -> Colour | None:
+def _colour(parts: dict[PartPath, Part], path: PartPath, below: PartPath) -> Colour | None:
     """What a part below another gives its faces and the other does not."""
     for end in range(len(below), len(path), -1):
         if parts[below[:end]].colour:
@@ -302,57 +278,9 @@ def _colour(parts: dict[Path, Part], path: Path, below: Path) -> Colour | None:
     return None
 
 
-def _bodies(shells: list[_Shell]) -> list[_Body]:
-    """Solids of closed shells; one that looks inward within another is a void of that."""
-    found, closed = [], []
-    for shell in shells:
-        if shell.shape.ShapeType() == TopAbs_SHELL and BRep_Tool.IsClosed_s(shell.shape):
-            closed.append(shell)
-        else:
-            found.append(_Body(shell.shape, shell.path))
-    solids = [_solid_of(shell.shape) for shell in closed]
-    voids: dict[int, list[int]] = {}
-    for number, shell in enumerate(closed):
-        if shell.inward and len(closed) > 1:
-            around = [k for k in range(len(closed)) if k != number and _is_within(shell, solids[k])]
-            outer = [k for k in around if not closed[k].inward]
-            if outer:
-                smallest = min(outer, key=lambda k: abs(content(solids[k], 3)))
-                voids.setdefault(smallest, []).append(number)
-    taken = {number for inner in voids.values() for number in inner}
-    for number, shell in enumerate(closed):
-        if number not in taken:
-            inner = [solids[k] for k in voids.get(number, ())]
-            found.append(_Body(_with_voids(solids[number], inner), shell.path))
-    return found
-
-
-def _solid_of(shell: TopoDS_Shape) -> TopoDS_Solid:
-    """A solid with its faces outward."""
-    if content(shell, 3) < 0.0:
-        shell = shell.Reversed()
-    builder, solid = BRep_Builder(), TopoDS_Solid()
-    builder.MakeSolid(solid)
-    builder.Add(solid, shell)
-    return solid
-
-
-def _is_within(shell: _Shell, solid: TopoDS_Solid) -> bool:
-    vertex = next(each(shell.shape, TopAbs_VERTEX), None)
-    if vertex is None:
-        return False
-    point = BRep_Tool.Pnt_s(TopoDS.Vertex_s(vertex))
-    return BRepClass3d_SolidClassifier(solid, point, 1e-7).State() == TopAbs_IN
-
-
-def _with_voids(solid: TopoDS_Solid, inner: list[TopoDS_Solid]) -> TopoDS_Solid:
-    for void in inner:
-        for shell in each(void, TopAbs_SHELL):
-            BRep_Builder().Add(solid, shell.Reversed())
-    return solid
-
-
-def _rebuilt(part: Part, path: Path, history: _Sewn, bodies: list[_Body], origins: Origins) -> Part:
+def _rebuilt(
+    part: Part, path: PartPath, history: _Sewn, bodies: list[Body], origins: Origins
+) -> Part:
     """The part with all below it, made of what was sewn."""
     own = [body.shape for body in bodies if body.path == path]
     shapes = own
@@ -375,7 +303,7 @@ def _rebuilt(part: Part, path: Path, history: _Sewn, bodies: list[_Body], origin
     )
 
 
-def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str]:
+def _notes(loose: list[_Loose], history: _Sewn, bodies: list[Body]) -> list[str]:
     """How many edges were joined, how many are left free, what became of it all."""
     before: ByShape[list[TopoDS_Shape]] = ByShape()
     for entry in loose:
@@ -397,7 +325,7 @@ def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str
     return notes
 
 
-def _free_edges(bodies: list[_Body]) -> tuple[int, int]:
+def _free_edges(bodies: list[Body]) -> tuple[int, int]:
     """Edges that are the border of one face; those where more than two meet."""
     counts = _uses(list(Numbering((body.shape for body in bodies), TopAbs_FACE)))
     return sum(c == 1 for c in counts), sum(c > 2 for c in counts)
