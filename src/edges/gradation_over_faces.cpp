@@ -17,7 +17,8 @@ constexpr double MARGIN = 1.0 + 1e-6;  // of a bound: rounding does not reach so
 constexpr double LESS = MARGIN * (1.0 - CHANGE);  // of a size: it is lowered to less alone
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
-constexpr std::size_t EDGES_A_BLOCK = 256, FACES_A_BLOCK = 64;
+constexpr std::size_t EDGES_A_BLOCK = 256;
+constexpr std::size_t FACES_A_BLOCK = 1;  // the largest are often side by side
 
 /// Some of the samples of each edge, its ends among them.
 ///

@@ -8,6 +8,7 @@
 #include "edges/checked_arguments.hpp"
 #include "edges/edge_mates.hpp"
 #include "edges/edges_beside.hpp"
+#include "edges/gap_sizes.hpp"
 #include "edges/mated_cuts.hpp"
 #include "edges/narrow_faces.hpp"
 
@@ -206,6 +207,49 @@ auto found_beside(const Points3& points, const Indices& first, const Matrix<std:
     return view(found);
 }
 
+auto sizes_of_gaps(const Points3& points, const Numbers& reach, const Indices& first,
+                   const Matrix<std::int64_t, 2>& ends, const Indices& edges,
+                   const Indices& first_of_face, const Numbers& asked, const GapLaw& law) {
+    require_rows(reach.shape(0), points.shape(0), "reach");
+    require_rows(asked.shape(0), points.shape(0), "asked");
+    require_offsets(first, ends.shape(0), points.shape(0), "first");
+    require_offsets(first_of_face, first_of_face.shape(0) - 1, edges.shape(0), "first_of_face");
+    require_indices(rows<std::int64_t>(edges), ends.shape(0), "edges");
+    Array<double> found;
+    {
+        const nb::gil_scoped_release released;
+        found = gap_sizes(
+            {rows<Point3>(points), rows<double>(reach), rows<std::int64_t>(first),
+             rows<SegmentEnds>(ends), rows<std::int64_t>(edges), rows<std::int64_t>(first_of_face)},
+            rows<double>(asked), law);
+    }
+    return view(found);
+}
+
+void bind_gap_sizes(nb::module_& m) {
+    m.def(
+        "gap_sizes",
+        [](const Points3& points, const Numbers& reach, const Indices& first,
+           const Matrix<std::int64_t, 2>& ends, const Indices& edges, const Indices& first_of_face,
+           const Numbers& asked, double along, double least, double ignored, double ignored_of_size,
+           double longer, double narrowest, double least_narrow) {
+            return sizes_of_gaps(
+                points, reach, first, ends, edges, first_of_face, asked,
+                {along, least, ignored, ignored_of_size, longer, narrowest, least_narrow});
+        },
+        nb::arg("points"), nb::arg("reach"), nb::arg("first"), nb::arg("ends"), nb::arg("edges"),
+        nb::arg("first_of_face"), nb::arg("asked"), nb::kw_only(), nb::arg("along"),
+        nb::arg("least"), nb::arg("ignored"), nb::arg("ignored_of_size"), nb::arg("longer"),
+        nb::arg("narrowest"), nb::arg("least_narrow"),
+        "Sizes (n,) that the distance of samples from other edges of their faces asks for, "
+        "infinite "
+        "for none.\n\nThe samples as ``space.edge_gaps`` has them; asked (n,): the sizes there "
+        "without gaps. A gap of ``ignored``, or ``ignored_of_size`` of the size there, is the "
+        "narrowest that asks: for ``along`` times itself, but at least ``least``, and at least "
+        "``longer`` times itself up to ``narrowest``; for that where this would be below "
+        "``least_narrow``. Lengths in model units.");
+}
+
 void bind_mates(nb::module_& m) {
     nb::class_<MateRuns> runs(m, "MateRuns",
                               "Parts of edges that run beside another edge, sample by sample.");
@@ -260,6 +304,7 @@ void bind_mates(nb::module_& m) {
 void bind_sides(nb::module_& m) {
     m.attr("ROUND_A_TUBE") = ROUND_A_TUBE;
     bind_narrow_faces(m);
+    bind_gap_sizes(m);
     bind_mates(m);
 }
 

@@ -73,6 +73,13 @@ def narrow_faces(curves: CurvePieces, points: Annotated[NDArray[numpy.float64], 
     points (n, 3), t (n,): samples, of edge e those from first[e] to first[e + 1]. edge, is_reversed (c,): coedges of all faces, loop after loop; pcurves: of these. length: of the edges. area: of the faces. surfaces: k.
     """
 
+def gap_sizes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], asked: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, along: float, least: float, ignored: float, ignored_of_size: float, longer: float, narrowest: float, least_narrow: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Sizes (n,) that the distance of samples from other edges of their faces asks for, infinite for none.
+
+    The samples as ``space.edge_gaps`` has them; asked (n,): the sizes there without gaps. A gap of ``ignored``, or ``ignored_of_size`` of the size there, is the narrowest that asks: for ``along`` times itself, but at least ``least``, and at least ``longer`` times itself up to ``narrowest``; for that where this would be below ``least_narrow``. Lengths in model units.
+    """
+
 class MateRuns:
     """Parts of edges that run beside another edge, sample by sample."""
 

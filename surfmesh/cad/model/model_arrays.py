@@ -69,6 +69,17 @@ class ModelArrays:
         return first, both % max(count, 1)
 
     @cached_property
+    def has_coedges(self) -> np.ndarray:
+        """(f,) bool: the face has a boundary."""
+        return np.diff(self.first_of_face) > 0
+
+    @cached_property
+    def around(self) -> np.ndarray:
+        """(f,) lengths of the boundaries of the faces, model units."""
+        length = np.where(self.collapsed, 0.0, self.length)[self.coedge_edge]
+        return np.bincount(self.coedge_face, length, len(self.area))
+
+    @cached_property
     def successions(self) -> tuple[np.ndarray, np.ndarray]:
         """Coedges (k,) of edges that are not collapsed, and those that follow them (k,) in their
         loops, past collapsed ones; not the ones of an edge that follows itself."""

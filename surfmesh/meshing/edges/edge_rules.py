@@ -57,9 +57,14 @@ class DemandsOfOne(NamedTuple):
     rules: SizeRules
     rows: np.ndarray | None
     """(m,) the samples that hear it; None: all."""
-    faces: tuple[int, ...]
-    """That have these sizes; none: those of the edge itself."""
+    of_faces: np.ndarray | None
+    """(k,) that have these sizes, some more than once; None: the edge itself has them."""
     demands: list[Demand]
+
+    @property
+    def faces(self) -> tuple[int, ...]:
+        """That have these sizes; none: those of the edge itself."""
+        return () if self.of_faces is None else tuple(dict.fromkeys(self.of_faces.tolist()))
 
     def least(self, count: int) -> np.ndarray:
         """(m,) within the bounds; count: m."""
@@ -106,8 +111,8 @@ class _Hearing(NamedTuple):
     """A set of sizes, and who hears it."""
 
     sizing: Sizing
-    edges: list[int]
-    coedges: list[int]  # of the faces that have these sizes, or of the edges that do
+    edges: np.ndarray  # int64, rising
+    coedges: np.ndarray  # int64, of the faces that have these sizes, or of the edges that do
     is_of_edges: bool = False  # they have them themselves
 
 
@@ -149,15 +154,15 @@ class EdgeRules:
         the other, then the edges. left_out: faces whose curvature is not asked for."""
         for own in self._hearings(courses.edges):
             rules = self.rules_of(own.sizing)
-            edges, coedges = np.array(own.edges, np.int64), np.array(own.coedges, np.int64)
+            edges, coedges = own.edges, own.coedges
             heard, rows = courses, None
             if len(edges) < len(courses.edges):
                 heard, rows = courses.chosen(np.searchsorted(courses.edges, edges))
             faces = self.arrays.coedge_face[coedges]
-            named = () if own.is_of_edges else tuple(dict.fromkeys(faces.tolist()))
+            of_faces = None if own.is_of_edges else faces
             if left_out:
                 coedges = coedges[~np.isin(faces, list(left_out))]
-            yield DemandsOfOne(rules, rows, named, list(self._demands_of(rules, heard, coedges)))
+            yield DemandsOfOne(rules, rows, of_faces, list(self._demands_of(rules, heard, coedges)))
 
     def target_size(self, courses: Courses, left_out: Collection[int] = ()) -> np.ndarray:
         """The least of all demands (n,), and no more than the edge is long."""
@@ -181,7 +186,7 @@ class EdgeRules:
         count = len(self.model.edges)
         chord, shortest = np.full(count, np.inf), np.zeros(count)
         for own in self._hearings(np.flatnonzero(~self.arrays.straight & ~self.arrays.collapsed)):
-            edges, allowed = np.array(own.edges, np.int64), own.sizing.straight_chord
+            edges, allowed = own.edges, own.sizing.straight_chord
             if allowed is not None:
                 chord[edges] = np.minimum(chord[edges], allowed)
             least = SPARED * (own.sizing.min_size or 0.0)
@@ -199,15 +204,18 @@ class EdgeRules:
         wanted, face_of = self.wanted, self.arrays.coedge_face
         if not wanted.faces and not wanted.edges:
             coedges = self._coedges_of[rows_of(self._first_coedge, edges)]
-            return [_Hearing(wanted.base, edges.tolist(), coedges.tolist())]
-        by_faces: dict[int, _Hearing] = {}
-        by_edges: dict[int, _Hearing] = {}
+            return [_Hearing(wanted.base, edges, coedges)]
+        by_faces: dict[int, tuple[Sizing, list[int], list[int]]] = {}
+        by_edges: dict[int, tuple[Sizing, list[int], list[int]]] = {}
 
-        def add(found: dict[int, _Hearing], sizing: Sizing, edge: int, coedges: list[int]) -> None:
-            own = found.setdefault(id(sizing), _Hearing(sizing, [], [], found is by_edges))
-            if not own.edges or own.edges[-1] != edge:
-                own.edges.append(edge)
-            own.coedges.extend(coedges)
+        def add(
+            found: dict[int, tuple[Sizing, list[int], list[int]]], sizing: Sizing, edge: int,
+            coedges: list[int],
+        ) -> None:  # fmt: skip
+            _, own, own_coedges = found.setdefault(id(sizing), (sizing, [], []))
+            if not own or own[-1] != edge:
+                own.append(edge)
+            own_coedges.extend(coedges)
 
         for edge in edges.tolist():
             coedges = self.coedges_of(edge).tolist()
@@ -217,7 +225,13 @@ class EdgeRules:
                 add(by_faces, wanted.base, edge, [])
             if edge in wanted.edges:
                 add(by_edges, wanted.edges[edge], edge, coedges)
-        return [*by_faces.values(), *by_edges.values()]
+        return [
+            _Hearing(
+                sizing, np.array(own, np.int64), np.array(coedges, np.int64), found is by_edges
+            )
+            for found in (by_faces, by_edges)
+            for sizing, own, coedges in found.values()
+        ]
 
     def _demands_of(
         self, rules: SizeRules, courses: Courses, coedges: np.ndarray

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfmesh._core.space import edge_gaps
+from surfmesh._core.edges import gap_sizes
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.meshing.edges.edge_mates import NO_RUNS, mate_runs
@@ -192,15 +192,12 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         if not first[-1]:
             continue
         fraction = 1.0 if count is None else size_across(1.0, count, slope)
-        reach = asked if fraction == 1.0 else asked / fraction
-        gap, _ = edge_gaps(samples.points, reach, samples.first, ends, edges, first)
-        rows = np.flatnonzero(np.isfinite(gap))
-        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked[rows])
-        rows = rows[gap[rows] >= ignored]
-        gap = gap[rows]
-        sliver = np.minimum(LONGER * gap, narrowest)
-        sliver[sliver < LEAST_NARROW * narrowest] = narrowest
-        along = ratio if count is None else fraction
-        size = np.maximum(along * gap, np.maximum(sliver, least))
-        samples.gap_size[rows] = np.minimum(samples.gap_size[rows], size)
+        found = gap_sizes(
+            samples.points, asked if fraction == 1.0 else asked / fraction, samples.first, ends,
+            edges, first, asked,
+            along=ratio if count is None else fraction, least=least,
+            ignored=max(SLIVER * model.diagonal, narrow), ignored_of_size=PROXIMITY_FLOOR,
+            longer=LONGER, narrowest=narrowest, least_narrow=LEAST_NARROW * narrowest,
+        )  # fmt: skip
+        np.minimum(samples.gap_size, found, out=samples.gap_size)
     np.minimum(samples.target_size, samples.gap_size, out=samples.target_size)

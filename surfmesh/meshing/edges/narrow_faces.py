@@ -56,10 +56,8 @@ def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
 
 def may_be_narrow(arrays: ModelArrays, width: np.ndarray) -> np.ndarray:
     """Numbers of the faces that lengths and areas do not show to be wider; width: (f,)."""
-    length = np.where(arrays.collapsed, 0.0, arrays.length)[arrays.coedge_edge]
-    count = np.diff(arrays.first_of_face)
-    around = np.bincount(arrays.coedge_face, length, len(count))
-    return np.flatnonzero((count > 0) & ~(2.0 * arrays.area > SURELY * ROUND * width * around))
+    is_wide = 2.0 * arrays.area > SURELY * ROUND * width * arrays.around
+    return np.flatnonzero(arrays.has_coedges & ~is_wide)
 
 
 def narrow_faces(model: CadModel, samples: EdgeSamples) -> dict[int, NarrowFace]:

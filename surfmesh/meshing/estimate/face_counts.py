@@ -123,18 +123,15 @@ def counts_of_faces(
     few = _are_few(largest * members, weight.sum())
     samples = [(of, *_sample(of[~few[of]], weight)) for of in map(np.flatnonzero, (plane, ~plane))]
     close = np.concatenate([chosen for _, chosen, _ in samples])
-    counts = np.zeros(len(first))
+    counts = rough.copy()
     counts[close] = count(first[close].tolist())
+    is_close = np.zeros(len(first), bool)
+    is_close[close] = True
     for of, chosen, times in samples:
-        others = of[~np.isin(of, chosen)]
-        counts[others] = rough[others] * _mean_ratio(counts[chosen], rough[chosen], times)
+        if 0 < len(chosen) < len(of):
+            ratio = (counts[chosen] / rough[chosen] * times).sum() / times.sum()
+            counts[of[~is_close[of]]] *= ratio
     return counts[alike.of]
-
-
-def _mean_ratio(counts: np.ndarray, rough: np.ndarray, times: np.ndarray) -> float:
-    """Of what was found (k,) to what was expected (k,), with weights (k,); 1 where nothing was
-    looked at."""
-    return float(np.average(counts / rough, weights=times)) if len(counts) else 1.0
 
 
 def _are_few(most: np.ndarray, total: float) -> np.ndarray:

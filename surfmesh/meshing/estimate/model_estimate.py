@@ -181,14 +181,17 @@ class Bends(NamedTuple):
             which = np.flatnonzero(own == id(sizing))
             if not len(which):
                 continue
-            rows = rows_of(known.first, which)
-            start = offsets(known.first[which + 1] - known.first[which])[:-1]
-            sizes = np.full(len(rows), allowed.clamp[1])
+            rows: np.ndarray | slice = slice(None)
+            start = known.first[:-1]
+            if len(which) < len(own):
+                rows = rows_of(known.first, which)
+                start = offsets(known.first[which + 1] - known.first[which])[:-1]
+            faces, sizes = known.faces[which], np.full(len(largest[rows]), allowed.clamp[1])
             if allowed.follows_curvature:
                 found = allowed.shorter(known.k1[rows], known.k2[rows])
                 sizes = np.where(known.regular[rows], found, sizes)
-                least[known.faces[which]] = np.minimum.reduceat(sizes, start)
-            turn[known.faces[which]] = np.maximum.reduceat(sizes * largest[rows], start)
+                least[faces] = np.minimum.reduceat(sizes, start)
+            turn[faces] = np.maximum.reduceat(sizes * largest[rows], start)
         return cls(least, turn, rules)
 
 

@@ -206,6 +206,26 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
 
+def test_faces_with_few_triangles_are_not_looked_at_however_they_are_curved(monkeypatch):
+    """Balls beside a plate: fields of small ones are not made, those of large ones are."""
+
+    def fields_made(radius):
+        made = []
+        monkeypatch.setattr(
+            model_estimate, "face_field", lambda job: made.append(job) or face_field(job)
+        )
+        shape = cq.Workplane().box(60, 40, 2).union(
+            cq.Workplane().sphere(radius).translate((0, 0, 10 + radius))
+        )  # fmt: skip
+        before = model_mesh._Unmeshed(sm.from_cadquery(shape), 0.8, few=True)
+        counts = before.counts(model_estimate.FaceFields())
+        return counts, len(made)
+
+    counts, few = fields_made(0.5)
+    assert few == 0 and counts.min() > 0.0
+    assert fields_made(5.0)[1] == 1
+
+
 def test_memory_is_said_of_the_mesh_and_with_the_program():
     small, large = (sm.estimate(sm.load("torus"), size) for size in (0.3, 0.03))
     assert 0 < small.mesh_memory < large.mesh_memory < large.memory
