@@ -1,4 +1,4 @@
-"""Poles on a short axis, of ellipsoids and of what is pulled out sideways: meshed, proved, clean."""
+"""Poles on a short axis, of ellipsoids and of what is pulled out sideways: meshed and clean."""
 
 import pytest
 
@@ -34,7 +34,7 @@ def test_they_are_meshed_and_proved_homeomorphic(surface, chord):
 
 
 def test_at_a_fine_chord_nothing_hides_and_feet_are_found():
-    """8 of 24,312 triangles could hide something, and with 20:1:1 feet were taken for three times as
+    """8 of 24,312 triangles could hide something, and of 20:1:1 feet were taken for three times as
     far as they are."""
     mesh = sm.mesh(ellipsoid(15, 1, 1), sm.Sizing(chord=0.006))
     report = sm.check(mesh)

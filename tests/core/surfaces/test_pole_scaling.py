@@ -1,4 +1,4 @@
-"""An axis that runs to elongated poles: charts by the formulas, by differences, and by directions."""
+"""An axis that runs to elongated poles: there and back, by differences, and by directions."""
 
 import pickle
 
