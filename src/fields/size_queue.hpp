@@ -3,10 +3,15 @@
 // A node that is lowered while it waits moves forward. Ties are broken by the node, so that the
 // order does not depend on the history of the queue. A node is put in anew when what it has been
 // lowered by since it was taken out adds up to more than a tolerance: less is not spread.
+//
+// Where cells are so sheared that what is spread comes back to where it came from, nodes are lowered
+// little by little, and each time all that depends on them. So the tolerance of a node that has been
+// taken out often doubles each time, up to what nobody notices.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "fields/background.hpp"
@@ -17,7 +22,10 @@ namespace surfmesh {
 class SizeQueue {
   public:
     SizeQueue(std::size_t nodes, double tolerance)
-        : waits_with_(nodes, NOT_WAITING), unspread_(nodes, 0.0), tolerance_(tolerance) {}
+        : waits_with_(nodes, NOT_WAITING),
+          unspread_(nodes, 0.0),
+          taken_(nodes, 0),
+          tolerance_(tolerance) {}
 
     /// Put in a node before `start`. What is no number is not spread.
     void seed(Node node, double size) {
@@ -29,7 +37,7 @@ class SizeQueue {
     /// A node is lowered to a size, by a relative change.
     void lowered(Node node, double size, double change) {
         unspread_[node] += change;
-        if (unspread_[node] <= tolerance_ || !(size < waits_with_[node])) return;
+        if (unspread_[node] <= tolerance(node) || !(size < waits_with_[node])) return;
         waits_with_[node] = size;
         heap_.push_back({size, node});
         std::push_heap(heap_.begin(), heap_.end(), IsAfter());
@@ -41,6 +49,7 @@ class SizeQueue {
             if (size != waits_with_[node]) continue;  // it has moved forward
             waits_with_[node] = NOT_WAITING;
             unspread_[node] = 0.0;
+            if (taken_[node] < COUNTED) ++taken_[node];
             return node;
         }
         return NIL;
@@ -48,6 +57,10 @@ class SizeQueue {
 
   private:
     static constexpr double NOT_WAITING = std::numeric_limits<double>::infinity();
+
+    // Times that a node is taken out before its tolerance doubles, and what that is at most.
+    static constexpr std::uint8_t OFTEN = 16, COUNTED = 64;
+    static constexpr double UNNOTICED = 1.28e-4;
 
     struct Entry {
         double size;
@@ -63,6 +76,11 @@ class SizeQueue {
         bool operator()(const Entry& a, const Entry& b) const { return IsBefore()(b, a); }
     };
 
+    [[nodiscard]] double tolerance(Node node) const {
+        if (taken_[node] <= OFTEN || tolerance_ >= UNNOTICED) return tolerance_;
+        return std::min(std::ldexp(tolerance_, taken_[node] - OFTEN), UNNOTICED);
+    }
+
     /// The smaller of the first seed and the top of the heap, taken out.
     Entry first() {
         const bool is_seed = next_ < seeds_.size();
@@ -75,8 +93,9 @@ class SizeQueue {
     Array<Entry> seeds_;  // in order, of which those before `next_` are taken
     Array<Entry> heap_;   // nodes that are lowered
     std::size_t next_ = 0;
-    Array<double> waits_with_;  // size with which a node stands in the queue
-    Array<double> unspread_;    // relative changes since it was taken out, added up
+    Array<double> waits_with_;   // size with which a node stands in the queue
+    Array<double> unspread_;     // relative changes since it was taken out, added up
+    Array<std::uint8_t> taken_;  // how often it was taken out, no further than counts
     double tolerance_;
 };
 

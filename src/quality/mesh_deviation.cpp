@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t BLOCK = 1024;  // places looked at together
 constexpr double ASTRAY = 0.05;      // of the size: a foot this far is looked for from corners too
-constexpr int PATIENT_STEPS = 60;    // of that search: beside elongated poles many steps lead astray
+constexpr int PATIENT_STEPS = 60;  // of that search: beside elongated poles many steps lead astray
 constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
                  CENTROID_WEIGHT = 9.0 / 20.0;

@@ -175,9 +175,8 @@ ParameterBox Chart::to_box(Point2 low, Point2 high) const {
     const double extent = along_u ? u.extent : v.extent;
     double& lower = along_u ? low.x : low.y;
     double& upper = along_u ? high.x : high.y;
-    const auto [least, most] =
-        scaling.between(clipped(lower / extent, 0.0, 1.0), clipped(upper / extent, 0.0, 1.0),
-                        first, last);
+    const auto [least, most] = scaling.between(clipped(lower / extent, 0.0, 1.0),
+                                               clipped(upper / extent, 0.0, 1.0), first, last);
     lower = extent * least;
     upper = extent * most;
     return {{u.parameter(low.x).value, v.parameter(low.y).value},

@@ -53,9 +53,8 @@ PoleScaling scaling_of(const Scaling& given, const Chart& chart) {
 nb::object scaling_in(const Chart& chart) {
     const PoleScaling& scaling = chart.scaling;
     if (scaling.is_none()) return nb::none();
-    return nb::cast(
-        std::tuple(scaling.axis, static_cast<int>(scaling.poles), scaling.c,
-                   std::pair(view(scaling.first.values), view(scaling.last.values))));
+    return nb::cast(std::tuple(scaling.axis, static_cast<int>(scaling.poles), scaling.c,
+                               std::pair(view(scaling.first.values), view(scaling.last.values))));
 }
 
 using Domain = std::pair<std::pair<double, double>, std::pair<double, double>>;
@@ -148,8 +147,7 @@ void bind_charts_of_two_axes(nb::module_& m) {
                 new (made) Chart{u, v, {}};
                 if (scaling) made->scaling = scaling_of(*scaling, *made);
             },
-            nb::arg("u"), nb::arg("v"), nb::arg("scaling") = nb::none(),
-            "scaling: as below.")
+            nb::arg("u"), nb::arg("v"), nb::arg("scaling") = nb::none(), "scaling: as below.")
         .def_static(
             "of", &made_of, nb::arg("surface"), nb::arg("steady"), nb::arg("pieces"),
             nb::arg("samples"), nb::arg("to_poles"),
@@ -166,10 +164,11 @@ void bind_charts_of_two_axes(nb::module_& m) {
             nb::arg("domain"), nb::arg("speeds"), "Where |r_u| and |r_v| are the same everywhere.")
         .def_prop_ro("u", [](const Chart& chart) { return chart.u; })
         .def_prop_ro("v", [](const Chart& chart) { return chart.v; })
-        .def_prop_ro("scaling", &scaling_in,
-                     "The axis that is scaled towards elongated poles, 0 or 1, which ends are poles (0: "
-                     "the first, 1: the last, 2: both), an angle, and the elongations at both ends, "
-                     "(k,) and (l,) at even places of the other axis: see pole_scaling.hpp; or None.")
+        .def_prop_ro(
+            "scaling", &scaling_in,
+            "The axis that is scaled towards elongated poles, 0 or 1, which ends are poles (0: "
+            "the first, 1: the last, 2: both), an angle, and the elongations at both ends, "
+            "(k,) and (l,) at even places of the other axis: see pole_scaling.hpp; or None.")
         .def(
             "to_uv_and_rates",
             [](const Chart& chart, const Points2& xy) {
@@ -190,8 +189,7 @@ void bind_charts_of_two_axes(nb::module_& m) {
                     crossed[i] = chart.at(rows<Point2>(xy)[i]).crossed;
                 return view(crossed);
             },
-            nb::arg("xy"),
-            "xy (n, 2) -> (du/dy, dv/dx) (n, 2), zero but where an axis is scaled.")
+            nb::arg("xy"), "xy (n, 2) -> (du/dy, dv/dx) (n, 2), zero but where an axis is scaled.")
         .def(
             "to_plane",
             [](const Chart& chart, const Points2& uv) {

@@ -32,9 +32,9 @@ struct Lines {
     SurfaceReader& surface;
     std::size_t axis;
     const Array<BentPiece>& pieces;
-    double low, high;     // of the axis
-    double first, last;   // across it
-    std::size_t samples;  // along each
+    double low, high;                       // of the axis
+    double first, last;                     // across it
+    std::size_t samples;                    // along each
     const Array<double>* turned = nullptr;  // angles about elongated poles, at even steps; or none
 
     [[nodiscard]] double across(std::size_t line) const {

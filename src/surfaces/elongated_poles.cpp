@@ -6,11 +6,12 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t PLACES = 1025;  // around a pole
+// Around a pole; and for a first look, which tells how elongated it is to a half at least.
+constexpr std::size_t PLACES = 1025, FEW_PLACES = 33;
 
 // How many times as far from the pole as the nearest point of a ring its farthest is, from which a
 // pole counts as elongated; and from which it counts as singular.
-constexpr double ELONGATED = 4.0, SINGULAR = 1e4;
+constexpr double ELONGATED = 4.0, SINGULAR = 150.0;
 
 // Where the ring lies, of the axis: near enough for the surface to be flat, far enough for digits.
 constexpr double BESIDE = 1e-3, HALF_PI = 1.5707963267948966;
@@ -80,13 +81,27 @@ Array<double> elongations(const Array<Point3>& steps) {
     return found;
 }
 
+/// Is it worth a closer look?
+bool may_be_elongated(SurfaceReader& surface, const Chart& chart, std::size_t axis) {
+    const auto [low, high] = surface.domain();
+    const auto around =
+        axis == 0 ? even_places(low.y, high.y, FEW_PLACES) : even_places(low.x, high.x, FEW_PLACES);
+    for (const bool at_end : {false, true}) {
+        const Array<Point3> steps = ring(surface, chart, axis, at_end, around);
+        if (surface.failed()) return false;
+        if (!steps.empty() && elongation(steps) >= 0.5 * ELONGATED) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::optional<ElongatedPoles> find_elongated_poles(SurfaceReader& surface, const Chart& chart) {
     const auto [low, high] = surface.domain();
     for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
-        const auto around = axis == 0 ? even_places(low.y, high.y, PLACES)
-                                      : even_places(low.x, high.x, PLACES);
+        if (!may_be_elongated(surface, chart, axis)) continue;
+        const auto around =
+            axis == 0 ? even_places(low.y, high.y, PLACES) : even_places(low.x, high.x, PLACES);
         ElongatedPoles poles{axis, {false, false}, Array<double>(PLACES, 0.0)};
         bool elongated = false;
         for (const bool at_end : {false, true}) {

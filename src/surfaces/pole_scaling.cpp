@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary_functions/exponential.hpp"
 #include "elementary_functions/inverse_trigonometric.hpp"
+#include "elementary_functions/logarithm.hpp"
 #include "elementary_functions/sine_cosine.hpp"
 #include "surfaces/monotone_cubic.hpp"
 
@@ -20,11 +22,13 @@ constexpr double INVERTED = 1e-15;
 ScaledFraction between_poles(double t, double first, double last) {
     const auto [sine, cosine] = elementary::sincos(PI * t);
     const double by_first = 0.5 * (1.0 + cosine), by_last = 0.5 * (1.0 - cosine);
-    const double k = first * by_first + last * by_last;
+    const double change = elementary::log(last / first);
+    const double k = first * elementary::exp(by_last * change);
     const double square = sine * sine + (k * cosine) * (k * cosine);
-    const double turned = -sine * cosine / (PI * square);
-    const double slope = (k - 0.5 * (last - first) * cosine * (sine * sine)) / square;
-    return {elementary::atan2(sine, k * cosine) / PI, slope, by_first * turned, by_last * turned};
+    const double turned = -sine * cosine * k / (PI * square);  // by the logarithm of k
+    const double slope = k * (1.0 - 0.5 * change * cosine * (sine * sine)) / square;
+    return {elementary::atan2(sine, k * cosine) / PI, slope, by_first / first * turned,
+            by_last / last * turned};
 }
 
 /// A pole at the beginning.

@@ -6,10 +6,11 @@
 // function of its scaled fraction t and of the other coordinate s. With k(s) the distance in space
 // from the pole per w, over the least of them, and W = pi w, T = pi t,
 //
-//     poles at both ends    cot W = k cot T,    k = k0 cos^2(T/2) + k1 sin^2(T/2)
+//     poles at both ends    cot W = k cot T,    log k = cos^2(T/2) log k0 + sin^2(T/2) log k1
 //     a pole at one         1 / w^2 - 1 = k^2 (1 / z^2 - 1),    z = sin(c t) / sin(c)
 //
-// Lines of constant t are circles about the pole at first, ellipses farther off, and lines of constant
+// which rise in t, the first as long as k0 and k1 are no farther apart than 1 : 180. Lines of constant t
+// are circles about the pole at first, ellipses farther off, and lines of constant
 // w in the end. The first makes directions from the centre of an ellipsoid, with t the angle from the
 // axis of its poles: sides of triangles are sections by planes through the centre there, which are
 // great circles of the directions, and bent no more than on a sphere.

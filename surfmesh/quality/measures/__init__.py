@@ -35,6 +35,7 @@ least_triangles: how many triangles the chord needs at least.
 surface_to_mesh: how far the true surface lies from the mesh: the other half of the Hausdorff
     distance.
 hidden_search: what may hide between the samples of a triangle or of a rim, by interval arithmetic.
+bent_sides: triangles that are straight in the plane that was meshed alone, cut into small ones.
 unseen: what no sample of the mesh has seen: features narrower than its triangles, proved absent
     or not.
 proof: how far mesh and surfaces are from each other at most, proved, on request.

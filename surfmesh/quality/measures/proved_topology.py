@@ -1,10 +1,10 @@
 """Is the mesh homeomorphic to its surface or model? Answered by counting and exact predicates.
 
 Each face of the mesh, cut open along its seams as in (u, v), has to consist of discs with holes
-whose triangles all run the same way round there, or in the plane that was meshed: then it is the face it stands for, and faces and
-seams are joined by number as those of the model are. Where a narrow face touches itself between two
-of its edges, all together may still be the closed surface that its Euler number says. See
-docs/proof.md.
+whose triangles all run the same way round there, or in the plane that was meshed: then it is the
+face it stands for, and faces and seams are joined by number as those of the model are. Where a
+narrow face touches itself between two of its edges, all together may still be the closed surface
+that its Euler number says. See docs/proof.md.
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ def _run_one_way(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> bool:
 
 
 def _in_plane(surface: Surface, uv: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where sides are straight: in the plane that was meshed, which is (u, v) with its axes bent."""
+    """Where sides are straight: in the plane that was meshed, (u, v) with its axes bent."""
     return Chart.of(surface).to_plane(uv)
 
 
