@@ -95,8 +95,8 @@ class FacesNotSewn(Remark):
         """How many, how far apart, and what helps."""
         loose = self.loose
         return (
-            f"{loose.edges:,} edges of {loose.faces:,} faces lie along edges of other faces and "
-            f"share none with them, up to {loose.gap:.2g} apart at {place_in_words(loose.point)}; "
+            f"{loose.edges:,} edges of {count_in_words(loose.faces, 'face')} lie along other edges "
+            f"and are not joined to them, up to {loose.gap:.2g} apart at {place_in_words(loose.point)}; "
             f"sew={self.tolerance} of load or from_cadquery (--sew {self.tolerance}) joins them"
         )
 
