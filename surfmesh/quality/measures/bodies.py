@@ -72,7 +72,8 @@ def bodies(
     edge_to_edge: Set[tuple[int, int]] = frozenset(),
 ) -> Bodies:
     """pairs: (k, 2) triangles that meet; by_triangle: (m,) distances from the surface;
-    edge_to_edge: pairs of faces whose rims lie along each other: so they meet, and no more.
+    edge_to_edge: pairs of faces, or of a face with itself, whose rims lie along each other: so
+    they meet, and no more.
     """
     own = np.ones(len(pairs), bool)
     if mesh.solid_ids is None:
@@ -86,7 +87,7 @@ def bodies(
     if not len(pairs) and closed.are_apart(least):
         return Bodies(own, 0, (), (), ())
     allowed = FACETS * distances_allowed(mesh, by_triangle)
-    between = np.flatnonzero(_apart(mesh, pairs))
+    between = np.flatnonzero(_apart(mesh, pairs) | _beside_rims(mesh, pairs, edge_to_edge))
     of_triangle = _body_numbers(mesh, count)
     deep = np.zeros(len(between), bool)
     depth = _depths(mesh, pairs[between])
@@ -165,6 +166,22 @@ def _apart(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
     each = (first >= 0).any(axis=1) & (second >= 0).any(axis=1)
     pieces = vertex_components(mesh)[mesh.triangles[pairs][:, :, 0]]
     return ~common.any(axis=(1, 2)) & (each | (pieces[:, 0] != pieces[:, 1]))
+
+
+def _beside_rims(
+    mesh: SurfaceMesh, pairs: NDArray[np.int32], edge_to_edge: Set[tuple[int, int]]
+) -> NDArray[np.bool_]:
+    """(k,) which pairs lie at free rims of faces of no solid, and these along each other: as if
+    they were of two bodies."""
+    if not len(pairs) or not edge_to_edge:
+        return np.zeros(len(pairs), bool)
+    at_rim = np.zeros(len(mesh.points), bool)
+    at_rim[mesh.edges[mesh.connectivity.uses == 1]] = True
+    width = np.array([int(mesh.face_ids.max()) + 1, 1], np.int64)
+    faces = np.sort(mesh.face_ids[pairs], axis=1) @ width
+    along = np.isin(faces, np.array(list(edge_to_edge), np.int64) @ width)
+    sheets = (solids_beside(mesh)[pairs] < 0).all(axis=(1, 2))
+    return along & sheets & at_rim[mesh.triangles[pairs]].any(axis=2).all(axis=1)
 
 
 def _body_numbers(mesh: SurfaceMesh, count: int) -> NDArray[np.int64]:

@@ -1,4 +1,5 @@
-"""Free rims of faces that lie edge to edge and share nothing: faces that were never sewn.
+"""Free rims of faces that lie edge to edge and share nothing: faces that were never sewn, to each
+other or, as a tube that is cut along its seam, to themselves.
 
  face 0    |  face 1        Both rims are edges of one triangle each. The middle of an edge
 ---o-------|-------o--      of one face lies on an edge of the other, as near as gaps of
@@ -35,8 +36,8 @@ class LooseEdges:
 def loose_edges(
     mesh: SurfaceMesh, by_triangle: NDArray[np.float64] | None
 ) -> tuple[LooseEdges | None, set[tuple[int, int]]]:
-    """Rims of different faces that lie along each other, None where there are none; and the
-    pairs of these faces, the lower number first.
+    """Rims of different faces, or of one face of a model, that lie along each other, None where
+    there are none; and the pairs of these faces, the lower number first.
 
     by_triangle: (m,) measured distances from the surface.
     """
@@ -44,9 +45,10 @@ def loose_edges(
     free = np.flatnonzero(table.uses == 1)
     triangle = table.half_edges[free, 0] // 3
     face = mesh.face_ids[triangle]
-    if len(free) < 2 or (face == face[0]).all():
+    of_model = mesh.edge_links is not None and mesh.solid_ids is not None
+    if len(free) < 2 or ((face == face[0]).all() and not of_model):
         return None, set()
-    distance, beside = _nearest(mesh, free, face)
+    distance, beside = _nearest(mesh, free, triangle, of_model)
     ends = mesh.points[mesh.edges[free]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     model_edges, sagitta = _model_edges(mesh, free, distances_allowed(mesh, by_triangle)[triangle])
@@ -65,10 +67,15 @@ def loose_edges(
 
 
 def _nearest(
-    mesh: SurfaceMesh, free: NDArray, face: NDArray
+    mesh: SurfaceMesh, free: NDArray, triangle: NDArray, of_model: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """How far the nearest free edge of another face lies from the middle of each (k,), infinite
-    where none is near, and which that is (k,)."""
+    where none is near, and which that is (k,).
+
+    triangle: (k,) beside each. of_model: an edge of the same face counts too where these share no
+    vertex; those of a narrow face do.
+    """
+    face = mesh.face_ids[triangle]
     ends = mesh.points[mesh.edges[free]]
     places = ends[:, 0, None] + PLACES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
     middle = ends.mean(axis=1)
@@ -80,7 +87,11 @@ def _nearest(
     size = np.maximum(np.einsum("ijk,ijk->ij", way, way), np.finfo(float).tiny)
     t = np.clip(np.einsum("ijk,ijk->ij", middle[:, None] - a, way) / size, 0.0, 1.0)
     gap = np.linalg.norm(a + t[:, :, None] * way - middle[:, None], axis=2)
-    gap = np.where(face[other] != face[:, None], gap, np.inf)
+    apart = face[other] != face[:, None]
+    if of_model:
+        one, two = mesh.triangles[triangle][:, None, :, None], mesh.triangles[triangle[other]]
+        apart |= ~(one == two[:, :, None, :]).any(axis=(2, 3))
+    gap = np.where(apart, gap, np.inf)
     best = gap.argmin(axis=1)
     rows = np.arange(len(free))
     return gap[rows, best], other[rows, best]

@@ -94,9 +94,10 @@ class FacesNotSewn(Remark):
     def text(self) -> str:
         """How many, how far apart, and what helps."""
         loose = self.loose
+        faces = count_in_words(loose.faces, "face")
         return (
-            f"{loose.edges:,} edges of {loose.faces:,} faces lie along edges of other faces and "
-            f"share none with them, up to {loose.gap:.2g} apart at {place_in_words(loose.point)}; "
+            f"{loose.edges:,} edges of {faces} lie along other edges and are not joined to them, "
+            f"up to {loose.gap:.2g} apart at {place_in_words(loose.point)}; "
             f"sew={self.tolerance} of load or from_cadquery (--sew {self.tolerance}) joins them"
         )
 

@@ -147,6 +147,44 @@ def test_faces_that_were_never_sewn(shape, sizing):
     assert not any("imprint" in said for said in report.warnings)
 
 
+@pytest.fixture(scope="module")
+def tube_cut_along_its_seam(tmp_path_factory):
+    """The faces of a tube as trimmed surfaces of IGES, which know no seam: the two rims of the
+    outer and the inner face lie in one place."""
+    from OCP.IGESControl import IGESControl_Writer
+
+    path = tmp_path_factory.mktemp("iges") / "tube.igs"
+    writer = IGESControl_Writer("MM", 0)
+    writer.AddShape(cq.Workplane().circle(2).circle(0.35).extrude(4).val().wrapped)
+    writer.ComputeModel()
+    assert writer.Write(str(path))
+    return path
+
+
+def test_a_face_that_was_never_sewn_to_itself(tube_cut_along_its_seam):
+    mesh = sm.mesh(sm.load(tube_cut_along_its_seam), CHORD)
+    report = mesh.report
+    assert report.clean and report.self_intersections == 0, report.problems
+    assert report.loose_edges.edges == 12 and report.loose_edges.faces == 4
+    sewn = sm.mesh(sm.load(tube_cut_along_its_seam, sew=1e-5), CHORD).report
+    assert sewn.clean and sewn.closed and sewn.loose_edges is None
+
+
+def test_a_face_that_crosses_itself_beside_its_seam(tube_cut_along_its_seam):
+    mesh = sm.mesh(sm.load(tube_cut_along_its_seam), CHORD)
+    radius = np.linalg.norm(mesh.points[:, :2], axis=1)
+    seam = (np.abs(mesh.points[:, 1]) < 1e-6) & (mesh.points[:, 0] > 1.9) & (radius > 1.9)
+    first = np.isin(
+        np.arange(len(seam)),
+        mesh.triangles[mesh.points[mesh.triangles][:, :, 1].max(axis=1) > 1e-3],
+    )
+    points = mesh.points.copy()
+    points[seam & first, 1] -= 0.1  # past the other rim
+    points[seam & first, 0] += 0.05 * np.where(points[seam & first, 2] > 2.0, 1.0, -1.0)
+    report = sm.check(changed(mesh, points=points))
+    assert report.self_intersections > 0 and not report.clean
+
+
 def test_sheets_that_share_their_edges_are_not_loose():
     report = sm.mesh(sm.from_cadquery(box(3, 2, 1).Shells()[0]), 0.5).report
     assert report.loose_edges is None and report.clean and not report.warnings
