@@ -63,7 +63,8 @@ class BallSlots {
 Ball ball_of(Interval a) {
     if (!(outward::magnitude(a) < intervals::INFINITE)) return {0.0, intervals::INFINITE};
     const double mid = 0.5 * a.lo + 0.5 * a.hi;
-    return {mid, std::max(outward::above(a.hi - mid), outward::above(mid - a.lo))};
+    const double rad = std::max(a.hi - mid, mid - a.lo);
+    return {mid, rad > 0.0 ? outward::above(rad) : 0.0};  // 0 is exact, and no denormal number
 }
 
 Interval interval_of(double mid, double rad) {
