@@ -40,7 +40,7 @@ std::optional<NewBoundRows> bounds_of(const Surface& surface, const Corners3& co
     require_rows(rims.shape(0), count, "rims");
     if (curved) require_rows(curved->shape(0), count, "curved");
     if (depth < 0 || depth > DEEPEST) throw nb::value_error("depth is 0 to 12");
-    Array<TriangleBounds> found(count);
+    auto found = Array<TriangleBounds>::unfilled(count);
     SurfaceStatus status;
     {
         const nb::gil_scoped_release released;
@@ -71,14 +71,17 @@ void require_mesh(std::size_t count, const Matrix<std::int32_t, 3>& triangles,
 }
 
 auto around(const Corners3& corners, const Matrix<std::int32_t, 3>& triangles,
-            const Vector<std::int32_t>& twins, const BoundRows& bounds) {
+            const Vector<std::int32_t>& twins, const BoundRows& bounds,
+            const Vector<double>& limits) {
     const std::size_t count = corners.shape(0);
     require_mesh(count, triangles, twins, bounds);
+    require_rows(limits.shape(0), count, "limits");
     RingBounds found;
     {
         const nb::gil_scoped_release released;
         found = ring_bounds(rows<SpaceCorners>(corners), {triangles.data(), 3 * count},
-                            rows<std::int32_t>(twins), rows<TriangleBounds>(bounds));
+                            rows<std::int32_t>(twins), rows<TriangleBounds>(bounds),
+                            rows<double>(limits));
     }
     return std::pair(view(found.bound), view(found.by_ring));
 }
@@ -335,11 +338,13 @@ void bind_proof(nb::module_& m) {
     m.def("parted_half_edges", &parted, nb::arg("uv"), nb::arg("twins"),
           "(k,) half-edges with a twin after them whose ends have other parameters in the twin's "
           "triangle, as at seams.\n\nuv: (m, 3, 2); twins: (3 m,), -1 at rims.");
-    m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
-          nb::arg("bounds"),
-          "(m,) how far triangles and surface are from each other at most, both ways, each with "
-          "its neighbours; (m,) whether it took them.\n\ntriangles: (m, 3) vertices; twins: (3 m,) "
-          "the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``.");
+    m.def(
+        "ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
+        nb::arg("bounds"), nb::arg("limits"),
+        "(m,) how far triangles and surface are from each other at most, both ways, each with "
+        "its neighbours; (m,) whether it took them.\n\ntriangles: (m, 3) vertices; twins: (3 m,) "
+        "the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``; limits: (m,) "
+        "within which little less is not looked for.");
     m.def("look_closer", &closer, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
           nb::arg("bends"), nb::arg("triangles"), nb::arg("twins"), nb::arg("bounds"),
           nb::arg("which"), nb::arg("limits"), nb::arg("levels"), nb::arg("bound"), nb::arg("gaps"),

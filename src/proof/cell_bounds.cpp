@@ -16,10 +16,6 @@ double largest_error(const CellCorners& corner) {
     return std::max({corner[0]->bends.error, corner[1]->bends.error, corner[2]->bends.error});
 }
 
-constexpr std::size_t SIDE_PAIRS = 6;
-constexpr std::array<std::size_t, SIDE_PAIRS> PAIR_FIRST = {0, 0, 0, 1, 1, 2},
-                                              PAIR_OTHER = {0, 1, 2, 1, 2, 2};
-
 /// What R - L is made of at a place of a cell: values at its corners, g_k there by side and corner, and
 /// R''''(e_k, e_k, e_m, e_m) by sides k and m,
 ///
@@ -105,8 +101,8 @@ void add_scaled(std::array<double, COUNT>& sum, double factor,
 /// |d . (R - L)| along axis d at most, at places of a cell; square: of its size over the triangle's;
 /// error: of R''(e, e) at its corners, of which there is a sixth at most (sum l_i l_j g_ij / 2).
 template <std::size_t FINER>
-auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts& rho, double square,
-                    double error) {
+auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts& parts,
+                    double square, double error) {
     using Places = PlaceWeights<FINER>;
     static constexpr Places WEIGHTS;
     std::array<double, Places::COUNT> found;
@@ -118,8 +114,13 @@ auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts&
     const auto bend_at = [&](std::size_t k, std::size_t c) {
         return -square / 6.0 * corner[c]->bends.value[d][k];
     };
-    const auto fourth_of = [&](std::size_t k, std::size_t m) {
-        return square * square * (6.0 * std::min(rho[d][k], rho[d][m]));
+    const double fourth = square * square;
+    // along the normal within rad of mid, else no larger than rho says
+    const auto add_fourth = [&](std::size_t p, const auto& weights, auto& away, auto& left) {
+        const BySide& rho = parts.rho[d];
+        const double size = 6.0 * std::min(rho[PAIR_FIRST[p]], rho[PAIR_OTHER[p]]);
+        if (d == 2) add_scaled(away, fourth * parts.mid[p], weights);
+        add_scaled(left, fourth * (d == 2 ? parts.rad[p] : size), weights);
     };
     for (const PlaceJet* there : corner) *next++ = std::abs(there->away[d]) + off;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -129,7 +130,7 @@ auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts&
             add_scaled(away, corner[c]->away[d], WEIGHTS.side_value[end]);
             add_scaled(away, bend_at(k, c), WEIGHTS.side_bend[end]);
         }
-        add_scaled(left, fourth_of(k, k), WEIGHTS.side_fourth);
+        add_fourth(PAIR_OF[k][k], WEIGHTS.side_fourth, away, left);
         take(away, left);
     }
     typename Places::Within away{}, left{};
@@ -137,19 +138,18 @@ auto farthest_along(std::size_t d, const CellCorners& corner, const FourthParts&
         add_scaled(away, corner[c]->away[d], WEIGHTS.value[c]);
         for (std::size_t k = 0; k < 3; ++k) add_scaled(away, bend_at(k, c), WEIGHTS.bend[k][c]);
     }
-    for (std::size_t p = 0; p < SIDE_PAIRS; ++p)
-        add_scaled(left, fourth_of(PAIR_FIRST[p], PAIR_OTHER[p]), WEIGHTS.fourth[p]);
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) add_fourth(p, WEIGHTS.fourth[p], away, left);
     take(away, left);
     return found;
 }
 
 /// The largest |n . (R - L)| and |R - L| at places of a cell.
 template <std::size_t FINER>
-PieceSize farthest_at_places(const CellCorners& corner, const FourthParts& rho, double square,
+PieceSize farthest_at_places(const CellCorners& corner, const FourthParts& parts, double square,
                              double error) {
     std::array<double, PlaceWeights<FINER>::COUNT> squares{}, heights{};  // of the last axis
     for (std::size_t d = 0; d < 3; ++d) {
-        const auto away = farthest_along<FINER>(d, corner, rho, square, error);
+        const auto away = farthest_along<FINER>(d, corner, parts, square, error);
         for (std::size_t p = 0; p < away.size(); ++p) heights[p] = away[p] * away[p];
         for (std::size_t p = 0; p < away.size(); ++p) squares[p] += heights[p];
     }
@@ -184,10 +184,10 @@ constexpr std::size_t FEW_PLACES = 3, MANY_PLACES = 6;  // along a side
 
 /// R - L at places of a cell, and what it rises by between them, by ``rises`` over their square.
 template <std::size_t FINER>
-PieceSize farthest(const CellCorners& corner, const FourthParts& rho, double square,
+PieceSize farthest(const CellCorners& corner, const FourthParts& parts, double square,
                    const TriangleFrame& frame, const PieceSize& rises) {
     constexpr double FINER_CELLS = FINER * FINER;
-    const PieceSize there = farthest_at_places<FINER>(corner, rho, square, largest_error(corner));
+    const PieceSize there = farthest_at_places<FINER>(corner, parts, square, largest_error(corner));
     const auto [size, error] = size_of_cell(corner);
     const PieceSize most = on_safe_side(there, error + CELL_ROUNDING * size, frame);
     return {most.height + rises.height / FINER_CELLS, most.whole + rises.whole / FINER_CELLS};
@@ -196,10 +196,10 @@ PieceSize farthest(const CellCorners& corner, const FourthParts& rho, double squ
 /// One cell after the other.
 class Cells {
   public:
-    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
+    Cells(std::size_t n, const FourthParts& parts, const TriangleFrame& frame, CellPlaces within,
           bool with_slope)
         : scale_(1.0 / static_cast<double>(n)),
-          rho_(rho),
+          parts_(parts),
           frame_(frame),
           within_(within),
           with_slope_(with_slope) {}
@@ -208,7 +208,7 @@ class Cells {
     void take_corner(const PlaceJet& there) { take_farther(away_of(there)); }
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
-        FourthParts more = rho_;
+        std::array<BySide, 3> more = parts_.rho;
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
         const SideBends bends = bends_of_cell(corner, more, with_slope_);
@@ -248,7 +248,7 @@ class Cells {
         if (most.whole + square * rises.whole <= away_.whole &&
             most.height + square * rises.height <= away_.height)
             return;
-        take_farther(farthest<FEW_PLACES>(corner, rho_, square, frame_,
+        take_farther(farthest<FEW_PLACES>(corner, parts_, square, frame_,
                                           {square * rises.height, square * rises.whole}));
     }
     [[nodiscard]] PieceSize away_of(const PlaceJet& there) const {
@@ -259,7 +259,7 @@ class Cells {
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
     double scale_;
-    const FourthParts& rho_;
+    const FourthParts& parts_;
     const TriangleFrame& frame_;
     CellPlaces within_;
     bool with_slope_;
@@ -281,7 +281,7 @@ double Cells::steepest(const CellCorners& corner, std::size_t k, double directio
         BySide least{}, lowest{};
         for (std::size_t i = 0; i < 3; ++i) {
             const double mean = direction * scale_ * (to.value[d][i] - from.value[d][i]);
-            const double off = scale_ * (to.error + from.error) + FARTHER * cube * rho_[d][i];
+            const double off = scale_ * (to.error + from.error) + FARTHER * cube * parts_.rho[d][i];
             least[i] = mean - off;
             lowest[i] = -mean - off;
         }
@@ -296,18 +296,53 @@ double Cells::steepest(const CellCorners& corner, std::size_t k, double directio
     return (std::sqrt(squares) * (1.0 + 4.0 * frame_.tilt) + 2.0 * error) * (1.0 + CELL_ROUNDING);
 }
 
+/// How far something may go up and down.
+struct BothWays {
+    double up, down;
+};
+
+/// Of twice the integral of g_k, k = ij: by its Bernstein coefficients at i, j, c and for ij, jc, ci. With
+/// A, B, C for g_k at i, j, c and M_m for R''''(e_k, e_k, e_m, e_m) these are, as mean_of_product is quadratic,
+///
+///     i, j    (2 A + B) / 3 - M_ij / 12     c     (A + B + C) / 3 - (M_ij + M_jc + M_ci) / 24
+///     ij      (A + B) / 2 - M_ij / 8        jc    (2 A + 3 B + C) / 6 - (M_ij + M_jc) / 16 - M_ci / 48
+BothWays averaged_along_normal(const CellCorners& corner, const FourthParts& parts, std::size_t k) {
+    constexpr double SIXTH = 1.0 / 6.0;
+    const std::size_t j = (k + 1) % 3, c = (k + 2) % 3;
+    const double a = corner[k]->bends.value[2][k], b = corner[j]->bends.value[2][k],
+                 third = corner[c]->bends.value[2][k];
+    const std::size_t own = PAIR_OF[k][k], after = PAIR_OF[k][j], before = PAIR_OF[k][c];
+    const double ij = parts.mid[own], jc = parts.mid[after], ci = parts.mid[before];
+    const std::array<double, 6> values = {
+        SIXTH * (4.0 * a + 2.0 * b - 0.5 * ij),
+        SIXTH * (2.0 * a + 4.0 * b - 0.5 * ij),
+        SIXTH * (2.0 * (a + b + third) - 0.25 * (ij + jc + ci)),
+        SIXTH * (3.0 * (a + b) - 0.75 * ij),
+        SIXTH * (2.0 * a + 3.0 * b + third - 0.375 * (ij + jc) - 0.125 * ci),
+        SIXTH * (3.0 * a + 2.0 * b + third - 0.375 * (ij + ci) - 0.125 * jc)};
+    const double off = std::max(0.125 * parts.rad[own],
+                                0.0625 * (parts.rad[own] + parts.rad[after] + parts.rad[before]));
+    double least = values[0], most = values[0];
+    for (const double x : values) {
+        least = std::min(least, x);
+        most = std::max(most, x);
+    }
+    return {most + off, off - least};
+}
+
 }  // namespace
 
-SideBends bends_of_cell(const CellCorners& corner, const FourthParts& more, bool with_slope) {
+SideBends bends_of_cell(const CellCorners& corner, const std::array<BySide, 3>& more,
+                        bool with_slope) {
     SideBends found;
     for (const PlaceJet* there : corner) join(found, there->bends, more, with_slope);
     return found;
 }
 
-SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
+SideBends averaged_bends(const CellCorners& corner, const FourthParts& parts) {
     const double error = largest_error(corner);
     SideBends found;
-    for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t d = 0; d < 2; ++d)
         for (std::size_t k = 0; k < 3; ++k) {
             const double a = corner[k]->bends.value[d][k],
                          b = corner[(k + 1) % 3]->bends.value[d][k],
@@ -315,36 +350,38 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
             constexpr double THIRD = 1.0 / 3.0;
             const BySide values = {THIRD * (2.0 * a + b), THIRD * (a + 2.0 * b),
                                    THIRD * (a + b + c)};
-            const double more = rho[d][k] + error;
+            const double more = parts.rho[d][k] + error;
             const double up = std::max({values[0], values[1], values[2]}) + more;
             const double down = more - std::min({values[0], values[1], values[2]});
             found.by_axis[d][k] = std::max(up, down);
-            if (d == 2) {
-                found.up[k] = up;
-                found.down[k] = down;
-            }
         }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [up, down] = averaged_along_normal(corner, parts, k);
+        found.up[k] = up + error;
+        found.down[k] = down + error;
+        found.by_axis[2][k] = std::max(found.up[k], found.down[k]);
+    }
     return found;
 }
 
-double height_at_places(const CellCorners& corner, const FourthParts& rho,
+double height_at_places(const CellCorners& corner, const FourthParts& parts,
                         const TriangleFrame& frame, double rises, double whole) {
-    const auto there = farthest_along<MANY_PLACES>(2, corner, rho, 1.0, largest_error(corner));
+    const auto there = farthest_along<MANY_PLACES>(2, corner, parts, 1.0, largest_error(corner));
     const auto [size, error] = size_of_cell(corner);
     const double off = error + CELL_ROUNDING * size;
     return on_safe_side({largest(there), whole}, off, frame).height +
            rises / (MANY_PLACES * MANY_PLACES);
 }
 
-PieceSize size_at_places(const CellCorners& corner, const FourthParts& rho,
+PieceSize size_at_places(const CellCorners& corner, const FourthParts& parts,
                          const TriangleFrame& frame, const PieceSize& rises) {
-    return farthest<MANY_PLACES>(corner, rho, 1.0, frame, rises);
+    return farthest<MANY_PLACES>(corner, parts, 1.0, frame, rises);
 }
 
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
-                              bool with_slope) {
-    Cells cells(n, rho, frame, within, with_slope);
+                              const FourthParts& parts, const TriangleFrame& frame,
+                              CellPlaces within, bool with_slope) {
+    Cells cells(n, parts, frame, within, with_slope);
     if (within != CellPlaces::NONE)
         for (const PlaceJet& there : places) cells.take_corner(there);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };

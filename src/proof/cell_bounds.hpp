@@ -20,18 +20,19 @@ namespace surfmesh {
 using CellCorners = std::array<const PlaceJet*, 3>;
 
 /// Suprema over a cell; more: what g_k may be from linear.
-SideBends bends_of_cell(const CellCorners& corner, const FourthParts& more, bool with_slope);
+SideBends bends_of_cell(const CellCorners& corner, const std::array<BySide, 3>& more,
+                        bool with_slope);
 
 /// Averaged as the integrals of smooth_bounds.hpp are, of one cell alone.
-SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho);
+SideBends averaged_bends(const CellCorners& corner, const FourthParts& parts);
 
 /// |n . (R - L)| over a triangle that is one cell, at a grid of places; rises: by
 /// its suprema over the triangle (size_from); whole: no less than |R - L|.
-double height_at_places(const CellCorners& corner, const FourthParts& rho,
+double height_at_places(const CellCorners& corner, const FourthParts& parts,
                         const TriangleFrame& frame, double rises, double whole);
 
 /// That and |R - L|.
-PieceSize size_at_places(const CellCorners& corner, const FourthParts& rho,
+PieceSize size_at_places(const CellCorners& corner, const FourthParts& parts,
                          const TriangleFrame& frame, const PieceSize& rises);
 
 struct BoundsOfCells {
@@ -45,7 +46,7 @@ enum class CellPlaces { NONE, FEW };
 
 /// places: of the grid with n cells along a side. with_slope: else it is left infinite.
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
-                              bool with_slope);
+                              const FourthParts& parts, const TriangleFrame& frame,
+                              CellPlaces within, bool with_slope);
 
 }  // namespace surfmesh

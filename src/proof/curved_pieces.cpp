@@ -13,6 +13,7 @@ constexpr int TO_NEAREST = 1, TO_NODE = 2;
 constexpr double LEAST_JACOBIAN = 0.05;  // of that of the straight triangle
 constexpr double THINNEST = 1e-10;       // whose Jacobian is more than round-off
 constexpr int HALVINGS = 3;
+constexpr std::size_t MIDDLES_TOGETHER = 1024;
 
 /// The middle of one side, on its way.
 struct Middle {
@@ -66,21 +67,47 @@ bool are_joined(const FaceSides& face, std::size_t h, std::size_t twin) {
     return start.x == to.x && start.y == to.y && end.x == from.x && end.y == from.y;
 }
 
-Array<Middle> middles_of(const FaceSides& face, std::span<const SpaceCorners> targets) {
-    Array<Middle> found;
-    for (std::size_t h = 0; h < face.twins.size(); ++h) {
-        const std::int32_t twin = face.twins[h];
-        if (twin != NIL && twin < static_cast<std::int32_t>(h)) continue;
-        const bool slides = twin == NIL || !are_joined(face, h, static_cast<std::size_t>(twin));
-        const PlaneCorners& uv = face.uv[h / 3];
-        const Point2 start = uv[h % 3], step = uv[(h % 3 + 1) % 3] - start;
-        const SpaceCorners& p = face.corners[h / 3];
-        const Point3 target =
-            targets.empty() ? 0.5 * (p[h % 3] + p[(h % 3 + 1) % 3]) : targets[h / 3][h % 3];
-        found.push_back({h, start, step, target, slides, start + 0.5 * step});
-    }
-    return found;
+Middle middle_of(const FaceSides& face, std::span<const SpaceCorners> targets, std::size_t h) {
+    const std::int32_t twin = face.twins[h];
+    const bool slides = twin == NIL || !are_joined(face, h, static_cast<std::size_t>(twin));
+    const PlaneCorners& uv = face.uv[h / 3];
+    const Point2 start = uv[h % 3], step = uv[(h % 3 + 1) % 3] - start;
+    const SpaceCorners& p = face.corners[h / 3];
+    const Point3 target =
+        targets.empty() ? 0.5 * (p[h % 3] + p[(h % 3 + 1) % 3]) : targets[h / 3][h % 3];
+    return {h, start, step, target, slides, start + 0.5 * step};
 }
+
+/// Some middles at a time, that stay in the cache.
+class MiddlePlaces {
+  public:
+    MiddlePlaces(const Surface& surface, int steps) : surface_(surface), steps_(steps) {}
+
+    void add(const Middle& middle) { all_.push_back(middle); }
+    void clear() { all_.clear(); }
+    [[nodiscard]] std::size_t count() const { return all_.size(); }
+    [[nodiscard]] std::span<const Middle> all() const { return {all_.data(), all_.size()}; }
+
+    SurfaceStatus find() {
+        uv_.resize(all_.size());
+        for (int step = 0; step < steps_; ++step) {
+            for (std::size_t i = 0; i < all_.size(); ++i) uv_.begin()[i] = all_.begin()[i].place;
+            if (const auto status = values_.evaluate(surface_, {uv_.data(), uv_.size()}, 1);
+                status != SurfaceStatus::DONE)
+                return status;
+            for (std::size_t i = 0; i < all_.size(); ++i)
+                move(all_.begin()[i], values_[0][i], values_[1][i], values_[2][i]);
+        }
+        return SurfaceStatus::DONE;
+    }
+
+  private:
+    const Surface& surface_;
+    int steps_;  // of Newton's method
+    Array<Middle> all_;
+    Array<Point2> uv_;
+    SurfaceValues values_;
+};
 
 /// Bends of both triangles at a side.
 void place(const Middle& middle, const FaceSides& face, std::span<PlaneBends> bends) {
@@ -136,19 +163,16 @@ SurfaceStatus curved_pieces(const Surface& surface, const FaceSides& face,
                             std::span<const SpaceCorners> middles, Array<PlaneBends>& bends) {
     bends = Array<PlaneBends>(face.uv.size(), PlaneBends{});
     if (dynamic_cast<const FourthDerivatives*>(&surface) == nullptr) return SurfaceStatus::DONE;
-    Array<Middle> all = middles_of(face, middles);
-    Array<Point2> uv(all.size());
-    SurfaceValues values;
-    const int steps = middles.empty() ? TO_NEAREST : TO_NODE;
-    for (int step = 0; step < steps; ++step) {
-        for (std::size_t i = 0; i < all.size(); ++i) uv[i] = all[i].place;
-        if (const auto status = values.evaluate(surface, {uv.data(), uv.size()}, 1);
-            status != SurfaceStatus::DONE)
-            return status;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            move(all[i], values[0][i], values[1][i], values[2][i]);
+    MiddlePlaces places(surface, middles.empty() ? TO_NEAREST : TO_NODE);
+    for (std::size_t h = 0; h < face.twins.size(); ++h) {
+        const std::int32_t twin = face.twins[h];
+        if (twin == NIL || twin > static_cast<std::int32_t>(h))
+            places.add(middle_of(face, middles, h));
+        if (places.count() < MIDDLES_TOGETHER && h + 1 < face.twins.size()) continue;
+        if (const auto status = places.find(); status != SurfaceStatus::DONE) return status;
+        for (const Middle& middle : places.all()) place(middle, face, {bends.data(), bends.size()});
+        places.clear();
     }
-    for (const Middle& middle : all) place(middle, face, {bends.data(), bends.size()});
     make_regular(face, {bends.data(), bends.size()});
     return SurfaceStatus::DONE;
 }

@@ -8,12 +8,10 @@ namespace surfmesh {
 namespace {
 
 constexpr double FOURTH_ROUNDING = 0x1p-46;  // relative, more than that of any sum of products here
-constexpr std::size_t PAIRS = 6,
-                      FOURTH = 7;  // of sides k <= l; the first of the fourth derivatives
-constexpr std::array<std::size_t, PAIRS> FIRST = {0, 0, 0, 1, 1, 2}, OTHER = {0, 1, 2, 1, 2, 2};
+constexpr double MADE_OF = 0x1p-44;  // relative, of sums of these with weights no larger than 1
+constexpr std::size_t FOURTH = 7;    // the first of the fourth derivatives
 
 /// Rows, so that pairs are computed side by side.
-using ByPair = std::array<double, PAIRS>;
 using Weights = std::array<ByPair, HIGH_DERIVATIVES>;
 
 /// Of p_a, p_b, q_aa, q_bb and q_ab of each pair of sides a and b: rows of u, rows of v.
@@ -24,7 +22,7 @@ struct Steps {
 
 void set_weights(const Steps& steps, Weights& of) {
     const auto& [u, v] = steps;
-    for (std::size_t p = 0; p < PAIRS; ++p) {
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
         const double au = u[A][p], av = v[A][p], bu = u[B][p], bv = v[B][p];
         const double auu = au * au, auv = 2.0 * au * av, avv = av * av;
         const double buu = bu * bu, buv = 2.0 * bu * bv, bvv = bv * bv;
@@ -90,8 +88,8 @@ StepBalls steps_of(const PlanePiece& piece) {
         found.rad.u[step][pair] = rad.x;
         found.rad.v[step][pair] = rad.y;
     };
-    for (std::size_t p = 0; p < PAIRS; ++p) {
-        const std::size_t k = FIRST[p], l = OTHER[p];
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
+        const std::size_t k = PAIR_FIRST[p], l = PAIR_OTHER[p];
         set(A, p, along[k].mid, along[k].rad);
         set(B, p, along[l].mid, along[l].rad);
         set(AA, p, second[k], rounding);
@@ -105,7 +103,7 @@ StepBalls steps_of(const PlanePiece& piece) {
 Steps sizes_of(const StepBalls& steps, double factor) {
     Steps found;
     for (std::size_t k = 0; k < STEPS; ++k)
-        for (std::size_t p = 0; p < PAIRS; ++p) {
+        for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
             found.u[k][p] = std::abs(steps.mid.u[k][p]) + factor * steps.rad.u[k][p];
             found.v[k][p] = std::abs(steps.mid.v[k][p]) + factor * steps.rad.v[k][p];
         }
@@ -147,7 +145,7 @@ FourthBalls along_axes(const DerivativeRows& over, const PlanePiece& piece, std:
         const AlongAxis along(over, axes[d]);
         ByPair middle{}, radius{};  // in registers
         for (std::size_t n = first; n < HIGH_DERIVATIVES; ++n)
-            for (std::size_t p = 0; p < PAIRS; ++p) {
+            for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
                 middle[p] += mid[n][p] * along.mid[n];
                 radius[p] += most[n][p] * along.most[n] - size[n][p] * along.size[n];
             }
@@ -172,17 +170,21 @@ FourthParts fourth_parts(const DerivativeRows& over, const PlanePiece& piece,
                          const Directions& axes) {
     const auto [mid, rad] = along_axes(over, piece, piece.is_straight() ? FOURTH : 0, axes);
     FourthParts found;
+    for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
+        found.mid[p] = mid[2][p];
+        found.rad[p] = rad[2][p] * (1.0 + MADE_OF) + MADE_OF * std::abs(mid[2][p]);
+    }
     double all = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         ByPair part;
-        for (std::size_t p = 0; p < PAIRS; ++p) {
+        for (std::size_t p = 0; p < SIDE_PAIRS; ++p) {
             part[p] = (std::abs(mid[d][p]) + rad[d][p]) * ((1.0 + FOURTH_ROUNDING) / 6.0);
             all += part[p];
         }
         const auto largest = [&part](std::size_t a, std::size_t b, std::size_t c) {
             return std::max(std::max(part[a], part[b]), part[c]);
         };
-        found[d] = {largest(0, 1, 2), largest(1, 3, 4), largest(2, 4, 5)};  // with each side
+        found.rho[d] = {largest(0, 1, 2), largest(1, 3, 4), largest(2, 4, 5)};  // with each side
     }
     return all < intervals::INFINITE ? found : UNKNOWN_PARTS;
 }

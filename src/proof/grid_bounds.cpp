@@ -47,25 +47,33 @@ class Highest {
     double most_ = 0.0;
 };
 
-/// One triangle with the points of its grid.
+/// One triangle after the other, with the points of its grid.
 class Grid {
   public:
-    Grid(std::span<const SecondJet> points, const PlanePiece& piece, const TriangleFrame& frame,
-         const SpaceBends& curved, std::size_t n, bool with_slope)
-        : n_(n), with_slope_(with_slope), frame_(frame) {
+    Grid(std::size_t n, bool with_slope) : n_(n), with_slope_(with_slope) {}
+
+    /// The next one; false, where not all is known.
+    bool begin(std::span<const SecondJet* const> points, const PlanePiece& piece,
+               const TriangleFrame& frame, const SpaceBends& curved) {
+        if (!std::all_of(points.begin(), points.end(),
+                         [](const SecondJet* jet) { return is_known(*jet); }))
+            return false;
+        frame_ = &frame;
         const std::size_t last = points.size() - 1;  // corners 0, 2, 1 of the triangle
-        const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
+        const std::array<EnclosedPoint, 3> own = {(*points[0])[0], (*points[last])[0],
+                                                  (*points[n_])[0]};
         const PieceSteps steps(piece);
-        places_.reserve(points.size());
-        for_grid(n, [&](const Barycentric& l) {
-            places_.push_back(place_jet(points[places_.size()], piece, steps, l, frame.axes, own,
-                                        curved, with_slope));
+        places_.clear();
+        for_grid(n_, [&](const Barycentric& l) {
+            places_.push_back(place_jet(*points[places_.size()], piece, steps, l, frame.axes, own,
+                                        curved, with_slope_));
         });
+        return true;
     }
     /// Of its cells.
-    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho) const {
-        return bounds_of_cells({places_.data(), places_.size()}, n_, rho, frame_, CellPlaces::FEW,
-                               with_slope_);
+    [[nodiscard]] BoundsOfCells cells(const FourthParts& parts) const {
+        return bounds_of_cells({places_.data(), places_.size()}, n_, parts, *frame_,
+                               CellPlaces::FEW, with_slope_);
     }
     /// Over the triangle's plane, of its points.
     [[nodiscard]] double highest() const {
@@ -77,7 +85,7 @@ class Grid {
   private:
     std::size_t n_;
     bool with_slope_;
-    const TriangleFrame& frame_;
+    const TriangleFrame* frame_ = nullptr;
     Array<PlaceJet> places_;
 };
 
@@ -101,25 +109,25 @@ bool is_open(const TriangleBounds& bounds, double points, const TriangleFrame& f
 }
 
 SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& asked,
-                         std::span<const FourthParts> rho, std::size_t side,
+                         std::span<const FourthParts> parts, std::size_t side,
                          std::span<const std::int32_t> which, std::span<TriangleBounds> out,
                          Array<std::int32_t>& left) {
     const Array<Point2> uv = places_of(asked, which, side);
     const DistinctPlaces places({uv.data(), uv.size()});
-    Array<SecondJet> jets(places.all().size()), points(points_of_grid(side));
+    auto jets = Array<SecondJet>::unfilled(places.all().size());
     const auto status = surface.enclose_second(places.all(), {jets.data(), jets.size()});
     if (status != SurfaceStatus::DONE) return status;
+    const bool with_slope = asked.slope < intervals::INFINITE;
+    Array<const SecondJet*> points(points_of_grid(side));
+    Grid grid(side, with_slope);
     for (std::size_t k = 0; k < which.size(); ++k) {
         const auto t = static_cast<std::size_t>(which[k]);
         for (std::size_t i = 0; i < points.size(); ++i)
-            points.begin()[i] = jets[places.at(k * points.size() + i)];
-        if (!std::all_of(points.begin(), points.end(), is_known)) continue;
+            points.begin()[i] = &jets[places.at(k * points.size() + i)];
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
-        const bool with_slope = asked.slope < intervals::INFINITE;
-        const Grid grid({points.data(), points.size()}, piece, frame, asked.curve(t), side,
-                        with_slope);
-        const BoundsOfCells cells = grid.cells(rho[t]);
+        if (!grid.begin({points.data(), points.size()}, piece, frame, asked.curve(t))) continue;
+        const BoundsOfCells cells = grid.cells(parts[t]);
         TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner, with_slope);
         const double moved = moved_by_rounding(asked.corners[t], piece, found);
         found.height = std::min(found.height, cells.away.height + moved);
@@ -178,12 +186,12 @@ SurfaceStatus with_grids(Array<std::int32_t>& which, std::span<const std::size_t
 }  // namespace
 
 SurfaceStatus lower_by_grid(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<const FourthParts> rho, Array<std::int32_t>& which,
+                            std::span<const FourthParts> parts, Array<std::int32_t>& which,
                             std::span<TriangleBounds> out) {
     return with_grids(
         which, CUTS,
         [&](std::size_t side, std::span<const std::int32_t> some, Array<std::int32_t>& left) {
-            return lower_some(surface, asked, rho, side, some, out, left);
+            return lower_some(surface, asked, parts, side, some, out, left);
         });
 }
 

@@ -19,7 +19,7 @@ namespace surfmesh {
 /// Of ``which`` triangles, with n = 2 and then 4 for those that are not within their limit; those
 /// are left in it that lower bounds could bring there.
 SurfaceStatus lower_by_grid(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<const FourthParts> rho, Array<std::int32_t>& which,
+                            std::span<const FourthParts> parts, Array<std::int32_t>& which,
                             std::span<TriangleBounds> out);
 
 /// The same with points alone and n = 4 and 8, of surfaces without fourth derivatives: heights only.

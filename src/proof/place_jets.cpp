@@ -53,7 +53,8 @@ void take_slopes(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece,
 
 }  // namespace
 
-void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope) {
+void join(SideBends& all, const PlaceBends& there, const std::array<BySide, 3>& more,
+          bool with_slope) {
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t d = 0; d < 3; ++d)
             all.by_axis[d][k] = std::max(all.by_axis[d][k],

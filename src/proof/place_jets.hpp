@@ -65,7 +65,8 @@ inline PlaceBends place_bends(const SecondJet& jet, const PlanePiece& piece,
 
 /// ``all`` joined with what is there; more: what may be added, by axis and side. with_slope: else
 /// differences between sides are left out.
-void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope);
+void join(SideBends& all, const PlaceBends& there, const std::array<BySide, 3>& more,
+          bool with_slope);
 
 /// Is all of it finite?
 inline bool is_known(const SecondJet& jet) {

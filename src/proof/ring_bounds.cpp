@@ -9,6 +9,7 @@ namespace {
 constexpr double RING_ROUNDING = 0x1p-46;   // relative, more than that of any sum here
 constexpr double STEEPEST = 0.766;          // the sine of 50 degrees
 constexpr double STEEPEST_FRAME = 0x1p-20;  // tilt of a normal
+constexpr double LITTLE_LOWER = 0x1p-6;     // of the height: not worth it within the limit
 constexpr double CERTAIN = 1.0 - 1e-5;  // lengths are less sure than that by far, with such tilts
 
 /// What is known of a triangle's shape, in numbers that are on the safe side.
@@ -41,6 +42,29 @@ Shape shape_of(const SpaceCorners& p, const TriangleBounds& bounds) {
     }
     return shape;
 }
+
+/// Of triangles, when they are asked for.
+class Shapes {
+  public:
+    Shapes(std::span<const SpaceCorners> corners, std::span<const TriangleBounds> bounds)
+        : corners_(corners),
+          bounds_(bounds),
+          shapes_(Array<Shape>::unfilled(corners.size())),
+          is_made_(corners.size(), 0) {}
+
+    const Shape& at(std::size_t t) {
+        const auto row = static_cast<std::ptrdiff_t>(t);
+        if (is_made_[row] == 0) shapes_[row] = shape_of(corners_[t], bounds_[t]);
+        is_made_[row] = 1;
+        return shapes_[row];
+    }
+
+  private:
+    std::span<const SpaceCorners> corners_;
+    std::span<const TriangleBounds> bounds_;
+    Array<Shape> shapes_;
+    Array<std::uint8_t> is_made_;
+};
 
 /// A triangle at one of its sides.
 struct Side {
@@ -116,16 +140,18 @@ double cost_of_side(const Side& own, const Side& other, bool run_alike) {
 
 RingBounds ring_bounds(std::span<const SpaceCorners> corners,
                        std::span<const std::int32_t> vertices, std::span<const std::int32_t> twins,
-                       std::span<const TriangleBounds> bounds) {
+                       std::span<const TriangleBounds> bounds, std::span<const double> limits) {
     const std::size_t count = corners.size();
-    Array<Shape> shapes(count);
-    for (std::size_t t = 0; t < count; ++t) shapes[t] = shape_of(corners[t], bounds[t]);
-    RingBounds found{Array<double>(count), Array<std::uint8_t>(count)};
+    Shapes shapes(corners, bounds);
+    RingBounds found{Array<double>::unfilled(count), Array<std::uint8_t>::unfilled(count)};
     for (std::size_t t = 0; t < count; ++t) {
         const TriangleBounds& own = bounds[t];
-        double most = shapes[t].is_known ? own.height : intervals::INFINITE, corner = own.corner;
+        double most = own.whole, corner = own.corner;
+        // with neighbours it is no lower than the height
+        if (!(own.whole + corner <= limits[t] && own.whole <= (1.0 + LITTLE_LOWER) * own.height))
+            most = shapes.at(t).is_known ? own.height : intervals::INFINITE;
         for (std::size_t k = 0; k < 3 && most < own.whole; ++k) {
-            const Side side{shapes[t], own, k};
+            const Side side{shapes.at(t), own, k};
             const std::int32_t twin = twins[3 * t + k];
             if (twin == NIL) {
                 most = std::max(most, cost_of_rim(side));
@@ -133,7 +159,7 @@ RingBounds ring_bounds(std::span<const SpaceCorners> corners,
             }
             const auto other = static_cast<std::size_t>(twin / 3);
             const bool run_alike = vertices[3 * t + k] == vertices[twin];
-            const Side across{shapes[other], bounds[other], static_cast<std::size_t>(twin % 3)};
+            const Side across{shapes.at(other), bounds[other], static_cast<std::size_t>(twin % 3)};
             most = std::max(
                 most, other == t ? intervals::INFINITE : cost_of_side(side, across, run_alike));
             corner = std::max(corner, bounds[other].corner);

@@ -16,7 +16,11 @@
 // winds round each of its points). At a rim the piece's own distance from the side counts. Where a
 // condition fails the bound is that of |r - L|, point by point. The proof is in docs/proof.md.
 //
-// In: a mesh, and its triangles' bounds. Out: a bound each, and where it is of which kind.
+// Where |r - L| is within the limit, and little more than a height, below which no bound can be with
+// neighbours, it counts at once.
+//
+// In: a mesh, its triangles' bounds, what they should keep to. Out: a bound each, and where it is of
+// which kind.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +40,6 @@ struct RingBounds {
 /// twins (3 m,): half-edge 3 t + k lies opposite to which; NIL at rims.
 RingBounds ring_bounds(std::span<const SpaceCorners> corners,
                        std::span<const std::int32_t> vertices, std::span<const std::int32_t> twins,
-                       std::span<const TriangleBounds> bounds);
+                       std::span<const TriangleBounds> bounds, std::span<const double> limits);
 
 }  // namespace surfmesh

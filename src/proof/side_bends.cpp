@@ -169,10 +169,11 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
 TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
     TriangleFrame frame{};
     const std::size_t first_side = rims & 1 ? 0 : rims & 2 ? 1 : rims & 4 ? 2 : 0;
-    const Point3 along_side = p[(first_side + 1) % 3] - p[first_side];
-    const Point3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
-    const double area = norm(n), length = norm(along_side);
-    const double longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
+    const std::array<Point3, 3> sides = {p[1] - p[0], p[2] - p[1], p[0] - p[2]};
+    const BySide lengths = {norm(sides[0]), norm(sides[1]), norm(sides[2])};
+    const Point3 n = cross(sides[0], p[2] - p[0]);
+    const double area = norm(n);
+    const double longest = std::max({lengths[0], lengths[1], lengths[2]});
     frame.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
     frame.turn = 4.0 * corner * longest / area;  // over the least height
     if (!(frame.tilt < TILTED)) {
@@ -180,14 +181,13 @@ TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
         frame.axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
         return frame;
     }
-    const Point3 normal = (1.0 / area) * n, first = (1.0 / length) * along_side;
+    const Point3 normal = (1.0 / area) * n, first = (1.0 / lengths[first_side]) * sides[first_side];
     frame.axes = {first, cross(normal, first), normal};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Point3 side = p[(k + 1) % 3] - p[k];
-        const double size = norm(side);
-        frame.sides[k] = {dot(side, frame.axes[0]) / size, dot(side, frame.axes[1]) / size};
-        frame.heights[k] = area / size * (1.0 - 4.0 * frame.tilt);
-        frame.lengths[k] = size;
+        const double part = 1.0 / lengths[k];
+        frame.lengths[k] = lengths[k];
+        frame.sides[k] = {part * dot(sides[k], frame.axes[0]), part * dot(sides[k], frame.axes[1])};
+        frame.heights[k] = part * area * (1.0 - 4.0 * frame.tilt);
     }
     return frame;
 }

@@ -7,14 +7,15 @@
 
 #include "proof/cell_bounds.hpp"
 #include "proof/distinct_places.hpp"
+#include "proof/plane_groups.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr double SMOOTH_ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
-constexpr std::int32_t SMOOTH_TOGETHER = 24;  // triangles over one cell, at first
-constexpr double LITTLE = 0.08;               // of the height: rho that is good enough
+constexpr double SMOOTH_ROUNDING = 0x1p-46;  // relative, more than that of any short sum here
+constexpr std::size_t SMOOTH_TOGETHER = 24;  // triangles over one cell, at first
+constexpr double LITTLE = 0.08;              // of the height: good enough to leave open
 constexpr double OF_LIMIT = 2.0;  // what a grid of points leaves a small part of: grid_bounds.hpp
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
@@ -36,14 +37,12 @@ constexpr TriangleBounds UNKNOWN = {.height = NONE,
                                     .cell_height = NONE,
                                     .cell_whole = NONE};
 
-/// A triangle, and three times its middle in (u, v).
-struct Member {
-    Point2 middle;
-    std::int32_t triangle;
-};
-using Group = std::span<Member>;
-
-double along_normal(const FourthParts& rho) { return std::max({rho[2][0], rho[2][1], rho[2][2]}); }
+/// How much of a height is left open: by what fourth derivatives along the normal are not known.
+double open_part(const FourthParts& parts) {
+    double most = 0.0;
+    for (const double rad : parts.rad) most = std::max(most, rad);
+    return most / 36.0;
+}
 
 /// Is a height by the largest of what corners say much above one by what they say of the middle?
 bool is_loose(double height, const CellCorners& corners) {
@@ -64,12 +63,12 @@ void widen(ParameterBox& box, Point2 p) {
 }
 
 /// Of the pieces of a group, all of which lie in the domain.
-ParameterBox hull_of(std::span<const Member> group, const ProofRequest& asked,
+ParameterBox hull_of(std::span<const PlacedTriangle> group, const ProofRequest& asked,
                      const ParameterBox& domain) {
     const Point2 first = asked.uv[static_cast<std::size_t>(group[0].triangle)][0];
     ParameterBox box{first, first};
     const auto take = [&box](Point2 p) { widen(box, p); };
-    for (const Member& member : group) {
+    for (const PlacedTriangle& member : group) {
         const PlanePiece piece = asked.piece(static_cast<std::size_t>(member.triangle));
         for (const Point2 p : piece.uv) take(p);
         if (piece.is_straight()) continue;
@@ -86,7 +85,7 @@ ParameterBox hull_of(std::span<const Member> group, const ProofRequest& asked,
 
 /// What is left of a group, and the derivatives over its cell.
 struct Unproved {
-    Group rest;
+    TriangleGroup rest;
     HighDerivatives over;
 };
 
@@ -94,19 +93,19 @@ class SmoothBounds {
   public:
     SmoothBounds(const FourthDerivatives& surface, const ParameterBox& domain,
                  const ProofRequest& asked, std::span<TriangleBounds> out,
-                 std::span<FourthParts> rho)
+                 std::span<FourthParts> parts)
         : surface_(surface),
           domain_(domain),
           asked_(asked),
           out_(out),
-          rho_(rho),
+          parts_(parts),
           places_({asked.uv.empty() ? nullptr : asked.uv[0].data(), 3 * asked.uv.size()}),
-          jets_(places_.all().size()),
+          jets_(Array<SecondJet>::unfilled(places_.all().size())),
           is_known_(jets_.size()),
           is_bounded_(asked.uv.size(), 0),
           off_(asked.uv.size(), 0.0),
           part_(asked.uv.size(), NONE),
-          members_(asked.uv.size()) {}
+          members_(placed_triangles(asked.uv)) {}
 
     SurfaceStatus run();
 
@@ -114,10 +113,8 @@ class SmoothBounds {
     void prepare();
     /// Where bounds were put off, or nothing was found.
     void finish();
-    /// The triangles of a group, by their places along its longer side.
-    [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
-    void divide(Group group);
-    /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
+    void divide(TriangleGroup group);
+    /// False: too much is left open, or nothing is known. What is known already is kept if it is better.
     /// is_last: there is no smaller cell, so that bounds are made of what there is.
     bool look_at(std::int32_t t, const DerivativeRows& over, bool is_last);
     [[nodiscard]] bool is_known_at(std::int32_t t) const;
@@ -128,29 +125,28 @@ class SmoothBounds {
     [[nodiscard]] TriangleFrame frame_at(std::int32_t t) const {
         return frame_of(asked_.corners[t], off_[t], asked_.rims[t]);
     }
-    /// Of one triangle, with the rho that is known. False as above.
+    /// Of one triangle, with the fourth derivatives that are known. False as above.
     bool bound(std::int32_t t, const TriangleFrame& frame);
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
-    void cut(Group group);
+    void cut(TriangleGroup group);
 
     const FourthDerivatives& surface_;
     ParameterBox domain_;
     ProofRequest asked_;
     std::span<TriangleBounds> out_;
-    std::span<FourthParts> rho_;
+    std::span<FourthParts> parts_;
     DistinctPlaces places_;
     Array<SecondJet> jets_;
-    Array<std::uint8_t> is_known_, is_bounded_;  // of places; of triangles, with their rho
-    Array<double> off_, part_;  // how far corners are off; what rho is of the height, so far
-    Array<Member> members_;
-    Array<Group> groups_;
+    Array<std::uint8_t> is_known_, is_bounded_;  // of places; of triangles, with their parts
+    Array<double> off_,
+        part_;  // how far corners are off; how much of the height is left open, so far
+    Array<PlacedTriangle> members_;
+    Array<TriangleGroup> groups_;
 };
 
 void SmoothBounds::prepare() {
     for (std::size_t t = 0; t < asked_.uv.size(); ++t) {
-        const PlaneCorners& p = asked_.uv[t];
-        members_[t] = {p[0] + p[1] + p[2], static_cast<std::int32_t>(t)};
         double& off = off_.begin()[t];
         for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
             const auto& [value, error] = jets_[places_.at(3 * t + k)][0];
@@ -168,42 +164,16 @@ void SmoothBounds::finish() {
         if (part_[t] < NONE) continue;
         out_[t] = UNKNOWN;
         out_[t].corner = off_[t];
-        rho_[t] = UNKNOWN_PARTS;
+        parts_[t] = UNKNOWN_PARTS;
     }
 }
 
-std::array<Group, 2> SmoothBounds::halves_of(Group group) const {
-    ParameterBox box{group[0].middle, group[0].middle};
-    for (const Member& member : group) widen(box, member.middle);
-    // sides in (u, v) are compared as the triangles lie in space
-    double along_u = 0.0, along_v = 0.0;
-    const PlaneCorners& first = asked_.uv[static_cast<std::size_t>(group[0].triangle)];
-    for (const Point2 p : first) {
-        along_u = std::max(along_u, std::abs(p.x - first[0].x));
-        along_v = std::max(along_v, std::abs(p.y - first[0].y));
-    }
-    const auto half = static_cast<std::ptrdiff_t>(group.size() / 2);
-    const auto cut_by = [&](auto place) {
-        std::nth_element(group.begin(), group.begin() + half, group.end(),
-                         [place](const Member& a, const Member& b) {
-                             const double x = place(a), y = place(b);
-                             return x < y || (x == y && a.triangle < b.triangle);
-                         });
-    };
-    if ((box.high.x - box.low.x) * along_v >= (box.high.y - box.low.y) * along_u)
-        cut_by([](const Member& member) { return member.middle.x; });
-    else
-        cut_by([](const Member& member) { return member.middle.y; });
-    const auto middle = static_cast<std::size_t>(half);
-    return {group.first(middle), group.subspan(middle)};
-}
-
-void SmoothBounds::divide(Group group) {
+void SmoothBounds::divide(TriangleGroup group) {
     if (group.size() <= SMOOTH_TOGETHER) {
         groups_.push_back(group);
         return;
     }
-    for (const Group half : halves_of(group)) divide(half);
+    for (const TriangleGroup half : halves_of(group, asked_.uv)) divide(half);
 }
 
 bool SmoothBounds::is_known_at(std::int32_t t) const {
@@ -224,11 +194,11 @@ double SmoothBounds::height_at_corner(std::int32_t t, const TriangleFrame& frame
 bool SmoothBounds::look_at(std::int32_t t, const DerivativeRows& over, bool is_last) {
     if (!is_known_at(t)) return false;
     const TriangleFrame frame = frame_at(t);
-    const FourthParts rho =
+    const FourthParts parts =
         fourth_parts(over, asked_.piece(static_cast<std::size_t>(t)), frame.axes);
-    const double part = along_normal(rho) / 6.0;
+    const double part = open_part(parts);
     if (!(part < part_[t])) return false;
-    rho_[t] = rho;
+    parts_[t] = parts;
     part_[t] = part;
     is_bounded_[t] = 0;
     const bool is_large = part > OF_LIMIT * asked_.limits[t];
@@ -237,16 +207,16 @@ bool SmoothBounds::look_at(std::int32_t t, const DerivativeRows& over, bool is_l
 }
 
 /// The slope of one cell.
-double steepest_of(const std::array<PlaceJet, 3>& corners, const FourthParts& rho,
+double steepest_of(const std::array<PlaceJet, 3>& corners, const FourthParts& parts,
                    const TriangleFrame& frame) {
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {corners[0], corners[2], corners[1]};
-    return bounds_of_cells(rows, 1, rho, frame, CellPlaces::NONE, true).slope;
+    return bounds_of_cells(rows, 1, parts, frame, CellPlaces::NONE, true).slope;
 }
 
 bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
     const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
-    const FourthParts& rho = rho_[t];
+    const FourthParts& parts = parts_[t];
     const double off = off_[t], part = part_[t];
     const std::array<const SecondJet*, 3> jets = {&jet_at(t, 0), &jet_at(t, 1), &jet_at(t, 2)};
     const PieceSteps steps(piece);
@@ -260,7 +230,7 @@ bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
         else  // at corners R is L
             places[k].bends = place_bends(*jets[k], piece, steps, AT_CORNERS[k], frame.axes);
     const CellCorners corners = {&places[0], &places[1], &places[2]};
-    const SideBends averaged = averaged_bends(corners, rho);
+    const SideBends averaged = averaged_bends(corners, parts);
     TriangleBounds found = bounds_from(averaged, frame, off, false);
     is_bounded_[t] = 1;
     if (!(found.whole < intervals::INFINITE)) {
@@ -268,17 +238,17 @@ bool SmoothBounds::bound(std::int32_t t, const TriangleFrame& frame) {
         return false;
     }
     const double limit = asked_.limits[t] - off;
-    const PieceSize rises = size_from(bends_of_cell(corners, rho, false), frame);
+    const PieceSize rises = size_from(bends_of_cell(corners, parts.rho, false), frame);
     found.cell_height = rises.height;
     found.cell_whole = rises.whole;
-    found.slope = with_slope ? steepest_of(places, rho, frame) : NONE;
+    found.slope = with_slope ? steepest_of(places, parts, frame) : NONE;
     // else places within say nothing more
     if (part <= limit && (found.whole > limit || is_loose(found.height, corners))) {
-        const double high = height_at_places(corners, rho, frame, rises.height, found.whole);
+        const double high = height_at_places(corners, parts, frame, rises.height, found.whole);
         found.height = std::min(found.height, high);
         found.whole = std::min(found.whole, whole_with(averaged, frame, found.height));
         if (found.whole > limit && found.height <= limit)
-            found.whole = std::min(found.whole, size_at_places(corners, rho, frame, rises).whole);
+            found.whole = std::min(found.whole, size_at_places(corners, parts, frame, rises).whole);
     }
     const double least = std::max(LITTLE * found.height, OF_LIMIT * asked_.limits[t]);
     out_[t] = found;
@@ -290,17 +260,17 @@ bool is_finite(const HighDerivatives& over) {
                        [](Point3 x) { return x.x + x.y + x.z < NONE; });
 }
 
-void SmoothBounds::cut(Group group) {
+void SmoothBounds::cut(TriangleGroup group) {
     if (group.size() == 1) {
         groups_.push_back(group);
         return;
     }
-    for (const Group half : halves_of(group)) {
+    for (const TriangleGroup half : halves_of(group, asked_.uv)) {
         if (half.size() == 1) {
             groups_.push_back(half);
             continue;
         }
-        for (const Group quarter : halves_of(half)) groups_.push_back(quarter);
+        for (const TriangleGroup quarter : halves_of(half, asked_.uv)) groups_.push_back(quarter);
     }
 }
 
@@ -316,7 +286,7 @@ SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
     if (status != SurfaceStatus::DONE) return status;
     Array<Unproved> others;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const Group rest = all[k].rest.subspan(1);
+        const TriangleGroup rest = all[k].rest.subspan(1);
         const std::int32_t first = all[k].rest[0].triangle;
         const HighDerivatives& over_one = found[static_cast<std::ptrdiff_t>(k)];
         if (!is_finite(over_one)) {  // which says nothing of the others
@@ -354,14 +324,15 @@ SurfaceStatus SmoothBounds::run() {
         status = surface_.enclose_high({cells.data(), count}, {found.data(), count});
         if (status != SurfaceStatus::DONE) return status;
         for (std::size_t k = 0; k < count; ++k) {
-            const Group group = group_of(k);
+            const TriangleGroup group = group_of(k);
             const HighDerivatives& over = found[static_cast<std::ptrdiff_t>(k)];
             const DerivativeRows by_row(over);
-            const auto bad = std::partition(group.begin(), group.end(), [&](const Member& member) {
-                return look_at(member.triangle, by_row, group.size() == 1);
-            });
+            const auto bad =
+                std::partition(group.begin(), group.end(), [&](const PlacedTriangle& member) {
+                    return look_at(member.triangle, by_row, group.size() == 1);
+                });
             if (bad != group.end() && group.size() > 1)
-                left.push_back({Group(bad, group.end()), over});
+                left.push_back({TriangleGroup(bad, group.end()), over});
         }
         status = cut_further({left.data(), left.size()});  // at the end of the groups
         if (status != SurfaceStatus::DONE) return status;
@@ -374,8 +345,8 @@ SurfaceStatus SmoothBounds::run() {
 
 SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ParameterBox& domain,
                             const ProofRequest& asked, std::span<TriangleBounds> out,
-                            std::span<FourthParts> rho) {
-    return SmoothBounds(surface, domain, asked, out, rho).run();
+                            std::span<FourthParts> parts) {
+    return SmoothBounds(surface, domain, asked, out, parts).run();
 }
 
 }  // namespace surfmesh

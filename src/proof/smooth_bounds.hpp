@@ -22,11 +22,15 @@
 // where [c] is 1 for an end c of side k, else 0: a 48th of the largest r'''' at the middle of a triangle, where
 // rho / 6 is a 36th. Between places R - L rises by no more than the suprema of g over the triangle allow.
 //
+// Along the normal r'''' is within a radius of a middle, M_km for sides k and m. Such a constant adds just
+// 1/2 sum_m mean_k(s_m) M_km, with its sign: the radius alone is left open. Where no places are looked at, twice
+// the integral is a quadratic function of x, between its Bernstein coefficients (cell_bounds.cpp).
+//
 // Corners are computed once, fourth derivatives over cells that many triangles share: those are
-// multiplied by the fourth power of their size. Where rho is so large that a grid of points
+// multiplied by the fourth power of their size. Where what is left open is so large that a grid of points
 // (grid_bounds.hpp), which leaves a 16th or 256th of it, would not do, cells are cut.
 //
-// In: triangles. Out: their bounds, and rho; infinite where there are none. Nothing is changed.
+// In: triangles. Out: their bounds, and fourth derivatives; infinite where there are none. Nothing is changed.
 #pragma once
 
 #include <span>
@@ -37,10 +41,10 @@
 
 namespace surfmesh {
 
-/// Bounds into ``out``, rho into ``rho``: over cells so small that |r - L| is within its limit, or what rho
-/// is of it, where that helps.
+/// Bounds into ``out``, what is known of fourth derivatives into ``parts``: over cells so small that |r - L|
+/// is within its limit, or what they leave open of it, where that helps.
 SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ParameterBox& domain,
                             const ProofRequest& asked, std::span<TriangleBounds> out,
-                            std::span<FourthParts> rho);
+                            std::span<FourthParts> parts);
 
 }  // namespace surfmesh

@@ -6,6 +6,7 @@
 #include "proof/crease_bends.hpp"
 #include "proof/distinct_places.hpp"
 #include "proof/grid_bounds.hpp"
+#include "proof/plane_groups.hpp"
 #include "proof/side_bends.hpp"
 #include "proof/smooth_bounds.hpp"
 #include "surfaces/outward.hpp"
@@ -209,29 +210,38 @@ struct SomeTriangles {
     Array<PlaneBends> bends;
     Array<double> limits;
     Array<RimSides> rims;
+    Array<SpaceBends> curved;
 
-    SomeTriangles(const ProofRequest& asked, const Array<std::int32_t>& which) {
-        for (const std::int32_t number : which) {
-            const auto t = static_cast<std::size_t>(number);
-            corners.push_back(asked.corners[t]);
-            uv.push_back(asked.uv[t]);
-            bends.push_back(asked.bends[t]);
-            limits.push_back(asked.limits[t]);
-            rims.push_back(asked.rims[t]);
-        }
+    void clear() {
+        corners.clear();
+        uv.clear();
+        bends.clear();
+        limits.clear();
+        rims.clear();
+        curved.clear();
+    }
+    void add(const ProofRequest& asked, std::int32_t number) {
+        const auto t = static_cast<std::size_t>(number);
+        corners.push_back(asked.corners[t]);
+        uv.push_back(asked.uv[t]);
+        bends.push_back(asked.bends[t]);
+        limits.push_back(asked.limits[t]);
+        rims.push_back(asked.rims[t]);
+        if (!asked.curved.empty()) curved.push_back(asked.curved[t]);
     }
     [[nodiscard]] ProofRequest request(const ProofRequest& asked) const {
         const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
-        return {all(corners), all(uv),   all(bends),
-                all(limits),  all(rims), asked.corners_are_on_surface,
-                asked.slope,  {}};
+        return {all(corners), all(uv),    all(bends),
+                all(limits),  all(rims),  asked.corners_are_on_surface,
+                asked.slope,  all(curved)};
     }
 };
 
 /// Bounds by cells of ``which`` triangles, where they are lower.
 SurfaceStatus bounds_of_some(const Surface& surface, const ProofRequest& asked, int depth,
                              const Array<std::int32_t>& which, std::span<TriangleBounds> out) {
-    const SomeTriangles some(asked, which);
+    SomeTriangles some;
+    for (const std::int32_t t : which) some.add(asked, t);
     Array<TriangleBounds> found(which.size());
     const auto status =
         bounds_by_cells(surface, some.request(asked), depth, {found.data(), found.size()});
@@ -245,10 +255,10 @@ SurfaceStatus bounds_of_some(const Surface& surface, const ProofRequest& asked, 
 }
 
 /// Is rho a large part of what is known, on the finest grid?
-bool is_vague(const TriangleBounds& bounds, const FourthParts& rho) {
+bool is_vague(const TriangleBounds& bounds, const FourthParts& parts) {
     constexpr double LARGE = 0.1, FINEST = 1.0 / 64.0;
     double most = 0.0;
-    for (const BySide& along : rho) most = std::max({most, along[0], along[1], along[2]});
+    for (const BySide& along : parts.rho) most = std::max({most, along[0], along[1], along[2]});
     return most / 6.0 * FINEST > LARGE * bounds.cell_whole;
 }
 
@@ -264,8 +274,8 @@ bool is_near(const TriangleBounds& bounds, const ProofRequest& asked, std::size_
 SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& fourth,
                                const ProofRequest& asked, int depth,
                                std::span<TriangleBounds> out) {
-    Array<FourthParts> rho(out.size());
-    auto status = smooth_bounds(fourth, surface.domain(), asked, out, {rho.data(), rho.size()});
+    auto parts = Array<FourthParts>::unfilled(out.size());
+    auto status = smooth_bounds(fourth, surface.domain(), asked, out, {parts.data(), parts.size()});
     if (status == SurfaceStatus::UNKNOWN && !asked.curved.empty()) return status;
     if (status == SurfaceStatus::UNKNOWN) return bounds_by_cells(surface, asked, depth, out);
     if (status != SurfaceStatus::DONE) return status;
@@ -277,16 +287,53 @@ SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& 
         else if (!is_near(out[t], asked, t))
             open.push_back(number);
     }
-    status = lower_by_grid(fourth, asked, {rho.data(), rho.size()}, open, out);
+    status = lower_by_grid(fourth, asked, {parts.data(), parts.size()}, open, out);
     if (status != SurfaceStatus::DONE) return status;
     for (const std::int32_t t : open)
-        if (is_vague(out[static_cast<std::size_t>(t)], rho[t])) unknown.push_back(t);
+        if (is_vague(out[static_cast<std::size_t>(t)], parts[t])) unknown.push_back(t);
     if (!asked.curved.empty()) return status;
     Array<std::int32_t> straight;
     for (const std::int32_t t : unknown)
         if (asked.piece(static_cast<std::size_t>(t)).is_straight()) straight.push_back(t);
     return bounds_of_some(surface, asked, depth, straight, out);
 }
+
+constexpr std::size_t PROVED_TOGETHER = 1024;  // whose corners and bounds stay in the cache
+
+/// Some triangles after the others: those that lie beside each other share their corners.
+class SmoothParts {
+  public:
+    SmoothParts(const Surface& surface, const FourthDerivatives& fourth, const ProofRequest& asked,
+                int depth, std::span<TriangleBounds> out)
+        : surface_(surface), fourth_(fourth), asked_(asked), depth_(depth), out_(out) {}
+
+    SurfaceStatus bound(TriangleGroup group) {
+        if (group.size() <= PROVED_TOGETHER) return bound_at_once(group);
+        for (const TriangleGroup half : halves_of(group, asked_.uv))
+            if (const auto status = bound(half); status != SurfaceStatus::DONE) return status;
+        return SurfaceStatus::DONE;
+    }
+
+  private:
+    SurfaceStatus bound_at_once(TriangleGroup group) {
+        some_.clear();
+        for (const PlacedTriangle& member : group) some_.add(asked_, member.triangle);
+        found_.resize(group.size());
+        const auto status = bounds_of_smooth(surface_, fourth_, some_.request(asked_), depth_,
+                                             {found_.data(), found_.size()});
+        for (std::size_t k = 0; k < group.size(); ++k)
+            out_[static_cast<std::size_t>(group[k].triangle)] = found_.begin()[k];
+        return status;
+    }
+
+    const Surface& surface_;
+    const FourthDerivatives& fourth_;
+    ProofRequest asked_;
+    int depth_;
+    std::span<TriangleBounds> out_;
+    SomeTriangles some_;
+    Array<TriangleBounds> found_;
+};
 
 }  // namespace
 
@@ -295,14 +342,11 @@ SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked,
     const auto* fourth = dynamic_cast<const FourthDerivatives*>(&surface);
     if (fourth == nullptr && !asked.curved.empty()) return SurfaceStatus::UNKNOWN;
     if (fourth == nullptr) return bounds_by_cells(surface, asked, depth, out);
-    constexpr std::size_t AT_ONCE = 1 << 16;  // triangles whose corners are kept
-    for (std::size_t start = 0; start < out.size(); start += AT_ONCE) {
-        const std::size_t count = std::min(AT_ONCE, out.size() - start);
-        const auto status = bounds_of_smooth(surface, *fourth, asked.part(start, count), depth,
-                                             out.subspan(start, count));
-        if (status != SurfaceStatus::DONE) return status;
-    }
-    return SurfaceStatus::DONE;
+    if (out.empty()) return SurfaceStatus::DONE;
+    if (out.size() <= PROVED_TOGETHER) return bounds_of_smooth(surface, *fourth, asked, depth, out);
+    const Array<PlacedTriangle> members = placed_triangles(asked.uv);
+    SmoothParts parts(surface, *fourth, asked, depth, out);
+    return parts.bound({members.data(), members.size()});
 }
 
 }  // namespace surfmesh

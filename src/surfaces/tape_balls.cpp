@@ -63,7 +63,8 @@ class BallSlots {
 Ball ball_of(Interval a) {
     if (!(outward::magnitude(a) < intervals::INFINITE)) return {0.0, intervals::INFINITE};
     const double mid = 0.5 * a.lo + 0.5 * a.hi;
-    return {mid, std::max(outward::above(a.hi - mid), outward::above(mid - a.lo))};
+    const double rad = std::max(a.hi - mid, mid - a.lo);
+    return {mid, rad > 0.0 ? outward::above(rad) : 0.0};  // 0 is exact, and no denormal number
 }
 
 Interval interval_of(double mid, double rad) {
@@ -260,6 +261,12 @@ void run_shared(const Instruction& step, bool is_second, Row out, ConstRow a,
     wave(out, a, n);
 }
 
+/// Of these intervals know no more.
+bool is_sum_or_product(Operation operation) {
+    return operation == Operation::ADD || operation == Operation::SUBTRACT ||
+           operation == Operation::MULTIPLY || operation == Operation::NEGATIVE;
+}
+
 bool are_known(const double* rad, std::size_t n) {
     std::uint64_t beyond = 0;
     for (std::size_t i = 0; i < n; ++i)
@@ -294,7 +301,8 @@ void BallRun::run(std::size_t instruction, std::size_t n) {
                    {angles_.data() + static_cast<std::size_t>(spare) * lanes_, n});
     else if (!run_by_rule(step, found, slots_[a], slots_[b], n))
         std::fill_n(found.rad, n, intervals::INFINITE);
-    if (!are_known(found.rad, n)) run_by_intervals(step, found, n);
+    if (!is_sum_or_product(step.operation) && !are_known(found.rad, n))
+        run_by_intervals(step, found, n);
     slots_.take_spare(step.target);
 }
 

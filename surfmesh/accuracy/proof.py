@@ -65,7 +65,7 @@ def proved_distances(
     is_joined = not (len(gaps.owners) or len(gaps.unknown) or len(gaps.loose))
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
-    bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)
+    bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds, limits)
     # a gap is none of the neighbours: with it point by point alone, or a closer look
     bound[gaps.beside] = away[gaps.beside]
     bound[gaps.owners] = np.inf

@@ -70,3 +70,36 @@ def test_bounds_are_tight_where_second_derivatives_change_over_a_triangle():
     height, _, _ = sampled(surface, uv, corners)
     found = bounds_of(surface, uv, corners, np.full(3, 10.0))
     assert (found[:, HEIGHT] < 1.05 * height).all()
+
+
+def test_fourth_derivatives_that_do_not_change_leave_nothing_open():
+    """But for what R - L may rise by between places: a 36th."""
+    surface = SURFACES["quartic"]
+    draw = np.random.default_rng(3)
+    uv = draw.uniform(-2, 1, (40, 1, 2)) + draw.uniform(0, 1, (40, 3, 2))
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    height, _, shape = sampled(surface, uv, corners)
+    found = bounds_of(surface, uv, corners, np.full(len(uv), 100.0))
+    good = shape > 0.05
+    assert np.median(found[good, HEIGHT] / height[good]) < 1.05
+
+
+def test_many_triangles_are_bounded_in_parts_that_lie_beside_each_other():
+    """None is left out, in whatever order they come."""
+    surface, draw = SURFACES["waves"], np.random.default_rng(8)
+    start = draw.uniform(-2, 1.9, (2500, 1, 2))
+    uv = start + 0.1 * draw.uniform(0, 1, (2500, 3, 2))
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    height, whole, shape = sampled(surface, uv, corners)
+    found = bounds_of(surface, uv, corners, 1.05 * whole)
+    assert (found[:, WHOLE] >= whole - 1e-14).all()
+    assert (found[:, HEIGHT] >= height - 1e-14)[shape > 1e-3].all()
+    assert np.median(found[:, WHOLE] / whole) < 1.05
+    order = draw.permutation(len(uv))
+    again = bounds_of(surface, uv[order], corners[order], 1.05 * whole[order])
+    np.testing.assert_allclose(again[:, WHOLE], found[order, WHOLE], rtol=0.1, atol=1e-12)
+
+
+def test_no_triangles_have_no_bounds():
+    nothing = np.empty((0, 3, 2)), np.empty((0, 3, 3)), np.empty(0)
+    assert bounds_of(SURFACES["waves"], *nothing).shape == (0, 29)

@@ -364,6 +364,6 @@ def test_given_arrays_are_looked_at():
     found = bounds_of(surface, corners, uv)
     vertices = np.arange(18, dtype=np.int32).reshape(-1, 3)
     with pytest.raises(ValueError, match="twins"):
-        proof.ring_bounds(corners, vertices, np.full(18, 18, np.int32), found)
+        proof.ring_bounds(corners, vertices, np.full(18, 18, np.int32), found, np.zeros(6))
     with pytest.raises(ValueError, match="triangles"):
-        proof.ring_bounds(corners, vertices + 1, np.full(18, -1, np.int32), found)
+        proof.ring_bounds(corners, vertices + 1, np.full(18, -1, np.int32), found, np.zeros(6))
