@@ -12,6 +12,10 @@
 
 namespace surfmesh {
 
+/// Those of the triangles with more than ``limit``.
+Array<Triangle> farther_than(double limit, const Array<Triangle>& triangles,
+                             const Array<double>& deviation);
+
 class TrackedDeviations {
   public:
     TrackedDeviations(PatchState& state, double chord);
@@ -20,6 +24,10 @@ class TrackedDeviations {
     [[nodiscard]] Array<Triangle> suspects() const;
     /// Distances of the triangles by samples.
     Array<double> measure(const Array<Triangle>& triangles);
+    /// Those of the triangles that are farther than ``limit``, by samples.
+    Array<Triangle> farther(const Array<Triangle>& triangles, double limit);
+    /// The farthest of them: those in the upper half of what they exceed the limit by.
+    Array<Triangle> farthest(const Array<Triangle>& triangles, double limit);
 
     /// Changes count from here on.
     void start_round();

@@ -1,0 +1,100 @@
+#include "patch/fewest_triangles.hpp"
+
+#include <utility>
+
+#include "patch/tracked_deviations.hpp"
+
+namespace surfmesh {
+namespace {
+
+// Of ``chord``: from where triangles are evened out, and what they are evened out to, by the estimate.
+constexpr double EVENED = 0.9, EVEN = 0.85;
+constexpr int EVENING_ROUNDS = 10;
+
+// The same where they are too far: samples of the report may be a little farther than those here,
+// and sides and centroid, which the estimate knows, up to 4.2 % nearer than places between them.
+constexpr double FAR = 0.97, NEAR = 0.93;
+constexpr int SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
+
+constexpr double LEAST_SHAPE = 0.7;  // alpha in the metric that moves keep to, where they can
+constexpr int LAST_LOOKS = 3;        // at all triangles
+
+// Where more of the triangles are far in the first round a finer field needs fewer than splits.
+constexpr double MANY_FAR = 0.3;
+
+using Triangles = Array<Triangle>;
+
+/// Triangles that are to deviate alike, and their rounds.
+class EvenTriangles {
+  public:
+    explicit EvenTriangles(PatchState& state)
+        : state_(state), chord_(*state.asked().chord), tracked_(state, chord_) {}
+
+    Triangles in_rounds(bool first);
+
+  private:
+    Triangles bring_nearer(Triangles far, int rounds, double aim, double limit);
+    Triangles split_far(Triangles far);
+    [[nodiscard]] Triangles living() const;
+
+    PatchState& state_;
+    double chord_;
+    TrackedDeviations tracked_;
+};
+
+/// Swap edges and move corners of the triangles ``far`` until those around deviate by no more than
+/// ``limit``, or for some rounds; returns those left. aim: by the estimate; both of the chord.
+Triangles EvenTriangles::bring_nearer(Triangles far, int rounds, double aim, double limit) {
+    const StarBounds bounds{aim * chord_, LEAST_SHAPE};
+    for (int round = 0; round < rounds && !far.empty() && !state_.stopped(); ++round) {
+        tracked_.start_round();
+        const int swapped = state_.swap_nearer(far, bounds);
+        state_.bring_nearer(far, bounds);
+        if (state_.moved.empty() && swapped == 0) break;
+        tracked_.add_moved();
+        far = tracked_.farther(tracked_.changed(far), limit * chord_);
+    }
+    return far;
+}
+
+/// Split edges of the farthest of the triangles ``far``, and bring those around nearer, by turns;
+/// returns those left.
+Triangles EvenTriangles::split_far(Triangles far) {
+    for (int round = 0; round < SPLIT_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
+        tracked_.start_round();
+        if (state_.split_farthest(tracked_.farthest(far, FAR * chord_)) == 0) break;
+        far = tracked_.farther(tracked_.changed(far), FAR * chord_);
+        far = bring_nearer(std::move(far), MOVES_AFTER_SPLIT, NEAR, FAR);
+    }
+    return far;
+}
+
+Triangles EvenTriangles::living() const {
+    Triangles found;
+    for (Triangle k = 0; k < state_.t.triangles(); ++k)
+        if (state_.t.region[k] != DEAD) found.push_back(k);
+    return found;
+}
+
+Triangles EvenTriangles::in_rounds(bool first) {
+    Triangles uneven = tracked_.farther(tracked_.suspects(), EVENED * chord_);
+    uneven = bring_nearer(std::move(uneven), EVENING_ROUNDS, EVEN, EVENED);
+    Triangles far = tracked_.farther(uneven, FAR * chord_);
+    if (first && static_cast<double>(far.size()) > MANY_FAR * state_.t.triangles()) return far;
+    far = split_far(std::move(far));
+    for (int look = 0; look < LAST_LOOKS && !state_.stopped(); ++look) {
+        far = tracked_.farther(living(), FAR * chord_);
+        if (far.empty()) break;
+        far = split_far(std::move(far));
+    }
+    return far;
+}
+
+}  // namespace
+
+Array<Triangle> approach_with_fewest(PatchState& state, bool first) {
+    if (!state.asked().chord) return {};
+    return EvenTriangles(state).in_rounds(first);
+}
+
+}  // namespace surfmesh
