@@ -1,5 +1,6 @@
 #include "patch/fewest_triangles.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "patch/tracked_deviations.hpp"
@@ -17,7 +18,10 @@ constexpr double FAR = 0.97, NEAR = 0.93;
 constexpr int SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
 
 constexpr double LEAST_SHAPE = 0.7;  // alpha in the metric that moves keep to, where they can
-constexpr int LAST_LOOKS = 3;        // at all triangles
+
+// At all triangles, in the end; of coarse ones places between the few samples are a fifth farther.
+constexpr int LAST_LOOKS = 3;
+constexpr double CLOSER = 0.85;
 
 // Where more of the triangles are far in the first round a finer field needs fewer than splits.
 constexpr double MANY_FAR = 0.3;
@@ -35,6 +39,7 @@ class EvenTriangles {
   private:
     Triangles bring_nearer(Triangles far, int rounds, double aim, double limit);
     Triangles split_far(Triangles far);
+    [[nodiscard]] bool has_far_side(Triangle k) const;
     [[nodiscard]] Triangles living() const;
 
     PatchState& state_;
@@ -57,12 +62,28 @@ Triangles EvenTriangles::bring_nearer(Triangles far, int rounds, double aim, dou
     return far;
 }
 
+/// Is a side of the patch, which nothing here can split, itself farther than asked?
+bool EvenTriangles::has_far_side(Triangle k) const {
+    const Triangulation& t = state_.t;
+    for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+        if (t.adj[e] >= 0 && t.fixed[e] == 0) continue;
+        const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
+        const double sag =
+            0.125 * (std::abs(rise(state_.frames, a, b)) + std::abs(rise(state_.frames, b, a)));
+        if (sag > FAR * chord_) return true;
+    }
+    return false;
+}
+
 /// Split edges of the farthest of the triangles ``far``, and bring those around nearer, by turns;
 /// returns those left.
 Triangles EvenTriangles::split_far(Triangles far) {
     for (int round = 0; round < SPLIT_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
+        Triangles split;
+        for (const Triangle k : tracked_.farthest(far, FAR * chord_))
+            if (!has_far_side(k)) split.push_back(k);
         tracked_.start_round();
-        if (state_.split_farthest(tracked_.farthest(far, FAR * chord_)) == 0) break;
+        if (state_.split_farthest(split) == 0) break;
         far = tracked_.farther(tracked_.changed(far), FAR * chord_);
         far = bring_nearer(std::move(far), MOVES_AFTER_SPLIT, NEAR, FAR);
     }
@@ -82,6 +103,7 @@ Triangles EvenTriangles::in_rounds(bool first) {
     Triangles far = tracked_.farther(uneven, FAR * chord_);
     if (first && static_cast<double>(far.size()) > MANY_FAR * state_.t.triangles()) return far;
     far = split_far(std::move(far));
+    tracked_.look_closer(CLOSER);
     for (int look = 0; look < LAST_LOOKS && !state_.stopped(); ++look) {
         far = tracked_.farther(living(), FAR * chord_);
         if (far.empty()) break;

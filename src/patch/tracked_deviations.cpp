@@ -43,7 +43,7 @@ Array<Triangle> farther_than(double limit, const Array<Triangle>& triangles,
 }
 
 TrackedDeviations::TrackedDeviations(PatchState& state, double chord)
-    : state_(state), chord_(chord) {
+    : state_(state), chord_(chord), looked_at_(chord) {
     const bool few = state.t.region.size() <= FEW_TRIANGLES;
     const double one_sided = state.is_anisotropic() ? SUSPECT_PART_STRETCHED : SUSPECT_PART;
     const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
@@ -67,7 +67,7 @@ Array<Triangle> TrackedDeviations::suspects() const {
 }
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
-    Array<double> found = deviations(state_, triangles, chord_);
+    Array<double> found = deviations(state_, triangles, looked_at_);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const double guess = estimate(state_, triangles[k]);
         factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;

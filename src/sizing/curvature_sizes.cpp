@@ -17,7 +17,7 @@ constexpr double LATTICE_RESERVE = 0.81;
 
 // Of stretched triangles whose corners move until these lie nearer: curved one way only, a bowl and a
 // saddle as much both ways.
-constexpr double FEWEST_RESERVE = 0.84, FEWEST_BOWL_RESERVE = 0.88, FEWEST_SADDLE_RESERVE = 1.01;
+constexpr double FEWEST_RESERVE = 0.84, FEWEST_BOWL_RESERVE = 0.88, FEWEST_SADDLE_RESERVE = 0.93;
 
 // In the worst direction of a lattice on saddles whose edges lie 15 degrees from principal ones.
 constexpr double SADDLE_LATTICE_RESERVE = 0.87, COSINE_30 = 0.86602540378443865;
