@@ -6,7 +6,7 @@
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
-#include "patch/fewest_triangles.hpp"
+#include "patch/even_deviations.hpp"
 #include "patch/surface_approach.hpp"
 
 namespace surfmesh {
@@ -175,8 +175,8 @@ Unmended optimise(PatchState& state, bool first) {
     if (state.is_anisotropic()) state.still = STILL_SETTLED;
     hold_growth(state);
     reduce_dihedrals(state);
-    Array<Triangle> far = state.asked().fewest && state.is_anisotropic()
-                              ? approach_with_fewest(state, first)
+    Array<Triangle> far = state.asked().evened && state.is_anisotropic()
+                              ? even_out_deviations(state, first)
                               : approach_surface(state, first);
     if (state.stopped()) return {};
     Array<Triangle> folded = find_folds(state);

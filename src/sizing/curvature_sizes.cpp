@@ -17,7 +17,7 @@ constexpr double LATTICE_RESERVE = 0.81;
 
 // Of stretched triangles whose corners move until these lie nearer: curved one way only, a bowl and a
 // saddle as much both ways.
-constexpr double FEWEST_RESERVE = 0.84, FEWEST_BOWL_RESERVE = 0.88, FEWEST_SADDLE_RESERVE = 0.93;
+constexpr double EVENED_RESERVE = 0.84, EVENED_BOWL_RESERVE = 0.88, EVENED_SADDLE_RESERVE = 0.93;
 
 // In the worst direction of a lattice on saddles whose edges lie 15 degrees from principal ones.
 constexpr double SADDLE_LATTICE_RESERVE = 0.87, COSINE_30 = 0.86602540378443865;
@@ -46,10 +46,10 @@ double stretched_reserve(PrincipalCurvatures k, double b) {
 
 /// The same where corners move: more where both curvatures decide, and most on saddles, where few
 /// triangles have an edge along a principal direction.
-double fewest_reserve(PrincipalCurvatures k, double b) {
-    const double most_of_it = k.k1 * k.k2 < 0.0 ? FEWEST_SADDLE_RESERVE : FEWEST_BOWL_RESERVE;
+double evened_reserve(PrincipalCurvatures k, double b) {
+    const double most_of_it = k.k1 * k.k2 < 0.0 ? EVENED_SADDLE_RESERVE : EVENED_BOWL_RESERVE;
     const double both = std::sqrt(std::abs(balance(k, 1.0))) * std::abs(b);
-    return FEWEST_RESERVE + (most_of_it - FEWEST_RESERVE) * both;
+    return EVENED_RESERVE + (most_of_it - EVENED_RESERVE) * both;
 }
 
 /// Sizes of balance b at which triangles deviate by ``used``; never less than 2 ``chord``.
@@ -119,9 +119,9 @@ PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double
     return sizes_within(k, b, stretched_reserve(k, b) * chord, chord);
 }
 
-PrincipalSizes fewest_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
+PrincipalSizes evened_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
     const double b = balance(k, ratio);
-    return sizes_within(k, b, fewest_reserve(k, b) * chord, chord);
+    return sizes_within(k, b, evened_reserve(k, b) * chord, chord);
 }
 
 PrincipalSizes principal_angle_sizes(PrincipalCurvatures k, double angle, double ratio) {

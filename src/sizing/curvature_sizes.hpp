@@ -100,8 +100,8 @@ struct PrincipalSizes {
 /// as smooth as that at umbilics.
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
 
-/// The same of triangles whose corners move until they lie nearer (src/patch/fewest_triangles.hpp).
-PrincipalSizes fewest_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
+/// The same of triangles whose corners move until they lie nearer (src/patch/even_deviations.hpp).
+PrincipalSizes evened_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
 
 /// The same on saddles, of triangles that form a lattice laid as ``lattice_edge`` (src/patch) has it.
 PrincipalSizes saddle_lattice_sizes(PrincipalCurvatures k, double chord, double ratio);

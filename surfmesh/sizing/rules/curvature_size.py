@@ -78,14 +78,14 @@ def principal_chord_sizes(
     return core.principal_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
 
 
-def fewest_chord_sizes(
+def evened_chord_sizes(
     k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray, ratio: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
     """The same of triangles whose corners move until they lie nearer: ``Sizing(fewest=True)``."""
     if isinstance(chord, np.ndarray) and chord.ndim:
-        first, second = _by_chord(core.fewest_chord_sizes, chord, k1, k2, _each_of(ratio, k1))
+        first, second = _by_chord(core.evened_chord_sizes, chord, k1, k2, _each_of(ratio, k1))
         return first, second
-    return core.fewest_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
+    return core.evened_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
 
 
 def saddle_lattice_sizes(

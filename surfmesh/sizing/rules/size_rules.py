@@ -92,7 +92,7 @@ class SizeRules:
         sizing = self.sizing
         if sizing.straight_chord is None or sizing.is_balanced:
             return None
-        if sizing.is_anisotropic and not sizing.fewest:
+        if sizing.is_anisotropic and not sizing.is_evened:
             return None
         rules = tuple(
             replace(rule, on_lattice=True) if isinstance(rule, ChordRule) else rule

@@ -1,4 +1,4 @@
-#include "patch/fewest_triangles.hpp"
+#include "patch/even_deviations.hpp"
 
 #include <cmath>
 #include <utility>
@@ -29,9 +29,9 @@ constexpr double MANY_FAR = 0.3;
 using Triangles = Array<Triangle>;
 
 /// Triangles that are to deviate alike, and their rounds.
-class EvenTriangles {
+class EvenDeviations {
   public:
-    explicit EvenTriangles(PatchState& state)
+    explicit EvenDeviations(PatchState& state)
         : state_(state), chord_(*state.asked().chord), tracked_(state, chord_) {}
 
     Triangles in_rounds(bool first);
@@ -49,7 +49,7 @@ class EvenTriangles {
 
 /// Swap edges and move corners of the triangles ``far`` until those around deviate by no more than
 /// ``limit``, or for some rounds; returns those left. aim: by the estimate; both of the chord.
-Triangles EvenTriangles::bring_nearer(Triangles far, int rounds, double aim, double limit) {
+Triangles EvenDeviations::bring_nearer(Triangles far, int rounds, double aim, double limit) {
     const StarBounds bounds{aim * chord_, LEAST_SHAPE};
     for (int round = 0; round < rounds && !far.empty() && !state_.stopped(); ++round) {
         tracked_.start_round();
@@ -63,7 +63,7 @@ Triangles EvenTriangles::bring_nearer(Triangles far, int rounds, double aim, dou
 }
 
 /// Is a side of the patch, which nothing here can split, itself farther than asked?
-bool EvenTriangles::has_far_side(Triangle k) const {
+bool EvenDeviations::has_far_side(Triangle k) const {
     const Triangulation& t = state_.t;
     for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
         if (t.adj[e] >= 0 && t.fixed[e] == 0) continue;
@@ -77,7 +77,7 @@ bool EvenTriangles::has_far_side(Triangle k) const {
 
 /// Split edges of the farthest of the triangles ``far``, and bring those around nearer, by turns;
 /// returns those left.
-Triangles EvenTriangles::split_far(Triangles far) {
+Triangles EvenDeviations::split_far(Triangles far) {
     for (int round = 0; round < SPLIT_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
         Triangles split;
         for (const Triangle k : tracked_.farthest(far, FAR * chord_))
@@ -90,14 +90,14 @@ Triangles EvenTriangles::split_far(Triangles far) {
     return far;
 }
 
-Triangles EvenTriangles::living() const {
+Triangles EvenDeviations::living() const {
     Triangles found;
     for (Triangle k = 0; k < state_.t.triangles(); ++k)
         if (state_.t.region[k] != DEAD) found.push_back(k);
     return found;
 }
 
-Triangles EvenTriangles::in_rounds(bool first) {
+Triangles EvenDeviations::in_rounds(bool first) {
     Triangles uneven = tracked_.farther(tracked_.suspects(), EVENED * chord_);
     uneven = bring_nearer(std::move(uneven), EVENING_ROUNDS, EVEN, EVENED);
     Triangles far = tracked_.farther(uneven, FAR * chord_);
@@ -114,9 +114,9 @@ Triangles EvenTriangles::in_rounds(bool first) {
 
 }  // namespace
 
-Array<Triangle> approach_with_fewest(PatchState& state, bool first) {
+Array<Triangle> even_out_deviations(PatchState& state, bool first) {
     if (!state.asked().chord) return {};
-    return EvenTriangles(state).in_rounds(first);
+    return EvenDeviations(state).in_rounds(first);
 }
 
 }  // namespace surfmesh

@@ -16,6 +16,6 @@ namespace surfmesh {
 
 /// Bring triangles that are farther than ``chord`` from the surface nearer, in a stretched mesh that
 /// is to have as few as keep it; returns those left. first: no earlier round has made the sizes.
-Array<Triangle> approach_with_fewest(PatchState& state, bool first);
+Array<Triangle> even_out_deviations(PatchState& state, bool first);
 
 }  // namespace surfmesh
