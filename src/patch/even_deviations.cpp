@@ -9,8 +9,9 @@ namespace surfmesh {
 namespace {
 
 // Of ``chord``: from where triangles are evened out, and what they are evened out to, by the estimate.
-constexpr double EVENED = 0.9, EVEN = 0.85;
-constexpr int EVENING_ROUNDS = 10;
+constexpr double EVENED = 0.93, EVEN = 0.88;
+constexpr int EVENING_ROUNDS = 4;
+constexpr double ROUGHLY = 1.15;  // near it triangles have all samples then
 
 // The same where they are too far: samples of the report may be a little farther than those here,
 // and sides and centroid, which the estimate knows, up to 4.2 % nearer than places between them.
@@ -98,12 +99,14 @@ Triangles EvenDeviations::living() const {
 }
 
 Triangles EvenDeviations::in_rounds(bool first) {
+    tracked_.look_near(ROUGHLY);
     Triangles uneven = tracked_.farther(tracked_.suspects(), EVENED * chord_);
     uneven = bring_nearer(std::move(uneven), EVENING_ROUNDS, EVEN, EVENED);
+    tracked_.look_near(1.0);
     Triangles far = tracked_.farther(uneven, FAR * chord_);
     if (first && static_cast<double>(far.size()) > MANY_FAR * state_.t.triangles()) return far;
     far = split_far(std::move(far));
-    tracked_.look_closer(CLOSER);
+    tracked_.look_near(CLOSER);
     for (int look = 0; look < LAST_LOOKS && !state_.stopped(); ++look) {
         far = tracked_.farther(living(), FAR * chord_);
         if (far.empty()) break;

@@ -22,8 +22,8 @@ class TrackedDeviations {
 
     /// All triangles that have to be measured.
     [[nodiscard]] Array<Triangle> suspects() const;
-    /// From here on all samples are taken from this part of what they were before.
-    void look_closer(double part) { looked_at_ *= part; }
+    /// From here on triangles near this part of what is allowed have all samples.
+    void look_near(double part) { looked_at_ = part * chord_; }
     /// Distances of the triangles by samples.
     Array<double> measure(const Array<Triangle>& triangles);
     /// Those of the triangles that are farther than ``limit``, by samples.
@@ -44,7 +44,7 @@ class TrackedDeviations {
 
     PatchState& state_;
     double chord_;
-    double looked_at_;                        // near it, triangles have all samples
+    double looked_at_;                        // near it triangles have all samples
     double suspect_, suspect_once_measured_;  // estimates from which triangles are measured
     Array<float> factor_;                     // measured over estimated; 0: not measured
     Array<Vertex> before_;                    // corners at the start of the round

@@ -60,9 +60,7 @@ class ChordRule(CurvatureRule):
 
     @property
     def core(self) -> core_sizing.CurvatureRule:
-        return core_sizing.ChordRule(
-            self.chord, self.is_width, self.on_lattice, self.is_evened
-        )
+        return core_sizing.ChordRule(self.chord, self.is_width, self.on_lattice, self.is_evened)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         size = lattice_chord_size if self.on_lattice else chord_size

@@ -50,7 +50,7 @@ def test_most_triangles_use_as_much_of_the_chord():
 @given(st.floats(0.4, 1.0), st.floats(1.0, 2.5))
 def test_the_chord_is_kept_on_ellipsoids(short, long):
     surface = sm.ParametricSurface(
-        f"{long}*cos(u)*sin(v)", f"sin(u)*sin(v)", f"{short}*cos(v)",
+        f"{long}*cos(u)*sin(v)", "sin(u)*sin(v)", f"{short}*cos(v)",
         u=(0.0, 2.0 * np.pi), v=(0.0, np.pi),
     )  # fmt: skip
     few = stretched(surface, 4e-3, fewest=True)
