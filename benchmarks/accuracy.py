@@ -5,6 +5,7 @@
     python benchmarks/accuracy.py --parts a.step b.iges    CAD files too, at diag/1000 or --fraction
     python benchmarks/accuracy.py --proof                  sizes made smaller until it is
     python benchmarks/accuracy.py --efficiency             triangles over the least, instead
+    python benchmarks/accuracy.py --efficiency --fewest    the same, stretched as few as can be
 
 A line each, as soon as it is measured: triangles; the share proved to keep to the chord both ways;
 largest bound / chord; median of bound / sampled distance; processor time of the proof over that of
@@ -14,7 +15,9 @@ kind of surface in the end: faces, those not proved; triangles, those without bo
 
 With --efficiency: triangles of an isotropic mesh and of one stretched up to 100, each over the
 least of any shape and the isotropic over what equilateral ones need; mean alpha; the largest
-distance both ways of random points / chord.
+distance both ways of random points / chord. With --fewest the stretched mesh has as few as keep the
+chord (``Sizing(fewest=True)``), its line comes a second time with growth 4 instead of the default,
+and the isotropic one is left out.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -39,6 +42,10 @@ FRACTIONS = (1_000, 10_000)
 POINTS = 20_000
 ROUNDING = 1e-9  # of the chord, of the independent look
 
+GROWTH = sm.Sizing().growth
+USUAL = ((1.0, GROWTH), (100.0, GROWTH))  # ratio and growth of the meshes of --efficiency
+FEWEST = ((100.0, GROWTH), (100.0, 4.0))
+
 
 class Looked(NamedTuple):
     """The largest distances at random points, and how many are beyond what is proved."""
@@ -55,9 +62,10 @@ def main() -> None:
     parser.add_argument("--fraction", type=int, default=FRACTIONS[0], help="of CAD files: diag/...")
     parser.add_argument("--proof", action="store_true", help="Sizing(proof=True)")
     parser.add_argument("--efficiency", action="store_true", help="triangles over the least")
+    parser.add_argument("--fewest", action="store_true", help="Sizing(fewest=True), stretched")
     options = parser.parse_args()
     if options.efficiency:
-        show_efficiency(options.names, options.parts)
+        show_efficiency(options.names, options.parts, options.fewest)
         return
     print(f"{'':24s} {'diag/':>6s} {'triangles':>9s} {'proved':>8s} {'bound':>6s} "
           f"{'tight':>6s} {'cpu':>5s} {'random points':>15s} {'above':>5s}")  # fmt: skip
@@ -126,7 +134,7 @@ def by_kind(mesh: SurfaceMesh, found: Proof) -> dict[str, NDArray[np.int64]]:
     return kinds
 
 
-def show_efficiency(names: list[str] | None, parts: list[str]) -> None:
+def show_efficiency(names: list[str] | None, parts: list[str], fewest: bool) -> None:
     """A line for each surface or model, chord and ratio."""
     print(f"{'':24s} {'diag/':>6s} {'ratio':>5s} {'triangles':>9s} {'/ least':>8s} "
           f"{'/ equil.':>8s} {'alpha':>7s} {'random points':>15s}")  # fmt: skip
@@ -136,8 +144,10 @@ def show_efficiency(names: list[str] | None, parts: list[str]) -> None:
             continue
         diagonal = float(np.linalg.norm(np.ptp(sm.mesh(thing).points, axis=0)))
         for fraction in FRACTIONS:
-            for ratio in (1.0, 100.0):
-                sizing = sm.Sizing(chord=diagonal / fraction, anisotropy=ratio)
+            for ratio, growth in FEWEST if fewest else USUAL:
+                sizing = sm.Sizing(
+                    chord=diagonal / fraction, anisotropy=ratio, growth=growth, fewest=fewest
+                )
                 mesh = sm.mesh(thing, sizing, strict=False, jobs=1)
                 found, chord = sm.check(mesh), diagonal / fraction
                 looked = at_random(mesh, np.zeros(len(mesh.triangles)))
@@ -146,6 +156,7 @@ def show_efficiency(names: list[str] | None, parts: list[str]) -> None:
                 print(f"{name[-24:]:24s} {fraction:6d} {ratio:5.0f} {count:9,d} "
                       f"{count / least:8.3f} {count / alike:8.3f} {found.alpha_mean:7.4f} "
                       f"{looked.from_surface / chord:7.3f} {looked.from_mesh / chord:7.3f} "
+                      f"{'' if growth == GROWTH else f'growth {growth:g} '}"
                       f"{'' if found.clean else 'not clean'}", flush=True)  # fmt: skip
 
 

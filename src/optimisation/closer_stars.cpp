@@ -15,6 +15,13 @@ constexpr double LEAST_STEP_GAIN = 0.02;  // least part of the excess that a ste
 
 double square_above(double ratio) { return ratio > 1.0 ? (ratio - 1.0) * (ratio - 1.0) : 0.0; }
 
+/// What the shape of a triangle exceeds its bound by, squared.
+double shape_excess(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, StarBounds bounds) {
+    if (coincide(s, b, c) || !is_shape_below(s, a, b, c, bounds.least)) return 0.0;
+    const double shape = triangle_shape(s, a, b, c);
+    return shape > 0.0 ? square_above(bounds.least / shape) : INFINITY;
+}
+
 /// The squares of what the triangles around v exceed their bounds by: 0 where all keep them,
 /// infinite where one is not positive in the plane or is turned over. From ``enough`` on the rest
 /// is not looked at.
@@ -27,11 +34,7 @@ double excess(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge
         if (orient(t.xy, v, p, q) <= 0.0) return INFINITY;
         sum += square_above(triangle_deviation(s, v, p, q) / bounds.farthest);
         if (sum >= enough) return sum;
-        if (!coincide(s, p, q) && is_shape_below(s, v, p, q, bounds.least)) {
-            const double shape = triangle_shape(s, v, p, q);
-            if (!(shape > 0.0)) return INFINITY;
-            sum += square_above(bounds.least / shape);
-        }
+        sum += shape_excess(s, v, p, q, bounds);
         e = rotate_ccw(t, e);
     } while (e != start);
     return sum;
@@ -148,6 +151,11 @@ std::vector<Array<Vertex>> free_corners(const Triangulation& t, const Stars& sta
 }
 
 }  // namespace
+
+double excess_of(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, StarBounds bounds) {
+    return square_above(triangle_deviation(s, a, b, c) / bounds.farthest) +
+           shape_excess(s, a, b, c, bounds);
+}
 
 void bring_nearer(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
                   std::span<const Triangle> triangles, StarBounds bounds, Array<Vertex>& moved) {

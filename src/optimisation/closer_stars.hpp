@@ -21,6 +21,10 @@ struct StarBounds {
     double least;     // alpha
 };
 
+/// The squares of what a triangle exceeds the bounds by; infinite where it is turned over.
+[[nodiscard]] double excess_of(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c,
+                               StarBounds bounds);
+
 /// Move the free corners of ``triangles`` while that brings their stars nearer to ``bounds``.
 ///
 /// Those that moved go to ``moved``. A search by steps in the unit tangent plane, as for the worst

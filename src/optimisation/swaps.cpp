@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t SWAPS_TOGETHER = 1 << 14;  // triangles measured together
 constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
+constexpr double NEARER = 0.8;      // of the excess of a pair, which a swap leaves at most
 
 /// The corners of the two triangles at an edge that is not on the border: a-b-c and b-a-d.
 struct Quadrilateral {
@@ -249,6 +250,28 @@ SwapsMade swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars,
             swaps.swap(e, q);
             ++made;
             break;
+        }
+    }
+    return {made, known};
+}
+
+SwapsMade swap_nearer(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                      std::span<const Triangle> triangles, StarBounds bounds) {
+    bool known = true;
+    int made = 0;
+    for (const Triangle k : triangles) {
+        if (t.region[k] == DEAD) continue;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
+            const Quadrilateral q = corners_around(t, e);
+            const double now =
+                excess_of(s, q.a, q.b, q.c, bounds) + excess_of(s, q.b, q.a, q.d, bounds);
+            const double then =
+                excess_of(s, q.a, q.d, q.c, bounds) + excess_of(s, q.b, q.c, q.d, bounds);
+            if (!(then < NEARER * now) || !may_swap(t, s, e)) continue;
+            if (!swap_with_stars(t, e, q, stars)) known = false;
+            touch(marks, q);
+            ++made;
         }
     }
     return {made, known};

@@ -7,6 +7,9 @@
 // side, then what is in several.
 #pragma once
 
+#include <span>
+
+#include "optimisation/closer_stars.hpp"
 #include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
@@ -44,5 +47,9 @@ SwapsMade swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars
 ///           b--d
 SwapsMade swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
                          const Array<double>& shape, double bad, double least);
+
+/// Swap edges of ``triangles`` while that brings the pair nearer to ``bounds``.
+SwapsMade swap_nearer(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                      std::span<const Triangle> triangles, StarBounds bounds);
 
 }  // namespace surfmesh

@@ -24,7 +24,8 @@ Point2 turned(double b) {
 
 }  // namespace
 
-std::optional<Point2> lattice_edge(const Surface& surface, const Chart& chart, Point2 place) {
+std::optional<Point2> lattice_edge(const Surface& surface, const Chart& chart, Point2 place,
+                                   bool stretched) {
     const ChartPoint at = chart.at(place);
     SurfaceReader r(surface);
     r.read({&at.uv, 1}, 2);
@@ -35,9 +36,10 @@ std::optional<Point2> lattice_edge(const Surface& surface, const Chart& chart, P
     const bool first_larger = std::abs(k.k1) >= std::abs(k.k2);
     const double larger = first_larger ? k.k1 : k.k2, smaller = first_larger ? k.k2 : k.k1;
     if (k.k1 == k.k2 || !std::isfinite(larger)) return std::nullopt;
-    const Point2 turn = turned(smaller / larger);
+    const Point2 turn = turned(stretched ? -1.0 : smaller / larger);
+    const double longer = stretched ? std::sqrt(std::abs(larger / smaller)) : 1.0;  // along
     const Point2 along = first_larger ? d2 : d1, across = first_larger ? d1 : d2;
-    const Point2 uv = turn.x * along + turn.y * across;
+    const Point2 uv = turn.x * longer * along + turn.y * across;
     const Point2 direction = at.direction(uv);
     if (!std::isfinite(direction.x) || !std::isfinite(direction.y)) return std::nullopt;
     return direction;

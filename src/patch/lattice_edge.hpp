@@ -11,6 +11,9 @@
 //            |  /  30 degrees
 //            | /
 //
+// Of stretched triangles, on saddles only, the same holds in the metric of their sizes, in which b is
+// -1 everywhere.
+//
 // In: a surface, its chart, a place. Out: the direction in the plane.
 #pragma once
 
@@ -24,6 +27,6 @@ namespace surfmesh {
 /// Direction of an edge at a place of the scaled plane; none where nothing is known there, or all
 /// directions are alike.
 [[nodiscard]] std::optional<Point2> lattice_edge(const Surface& surface, const Chart& chart,
-                                                 Point2 place);
+                                                 Point2 place, bool stretched = false);
 
 }  // namespace surfmesh

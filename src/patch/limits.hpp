@@ -19,6 +19,7 @@ struct AskedAccuracy {
     bool is_width = false;       // ``chord`` is that of the whole band around the surface that a
                                  // triangle needs, on one side or on both
     bool keeps_lowered = false;  // nodes of the boundary keep sizes that were lowered there
+    bool evened = false;         // vertices move until stretched triangles deviate alike
 };
 
 /// Radius below which a surface is said to bend sharply: no triangle is small enough there.

@@ -49,7 +49,8 @@ bool PatchWork::packed() {
     if (!begins(PatchStage::packing)) return false;
     std::optional<Point2> edge;
     if (task_.on_lattice)
-        edge = lattice_edge(task_.surface, task_.chart, 0.5 * (task_.low + task_.high));
+        edge = lattice_edge(task_.surface, task_.chart, 0.5 * (task_.low + task_.high),
+                            task_.background.is_anisotropic());
     Packing packing = pack_box(task_.background, task_.low, task_.high, task_.expected,
                                hooks_.while_packing, edge);
     made_.packing = packing.end;

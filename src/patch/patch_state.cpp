@@ -206,6 +206,14 @@ void PatchState::bring_nearer(std::span<const Triangle> triangles, StarBounds bo
     renew_frames(moved, kept_drift);
 }
 
+int PatchState::swap_nearer(std::span<const Triangle> triangles, StarBounds bounds) {
+    if (stopped()) return 0;
+    find_stars();
+    const SwapsMade made = surfmesh::swap_nearer(t, frames, stars, marks, triangles, bounds);
+    note(made);
+    return made.count;
+}
+
 void PatchState::swap(double good) {
     if (stopped()) return;
     note(swap_for_shape(t, frames, shape, stars_known_ ? &stars : nullptr, marks, good, SWEEPS));

@@ -104,6 +104,8 @@ class PatchState {
     void raise_worst(double least);
     /// Move the free corners of the triangles until their stars keep the bounds, or are nearer.
     void bring_nearer(std::span<const Triangle> triangles, StarBounds bounds);
+    /// Swap edges of the triangles where that brings the pair nearer to the bounds.
+    int swap_nearer(std::span<const Triangle> triangles, StarBounds bounds);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.

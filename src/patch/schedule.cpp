@@ -6,6 +6,7 @@
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
+#include "patch/even_deviations.hpp"
 #include "patch/surface_approach.hpp"
 
 namespace surfmesh {
@@ -174,7 +175,9 @@ Unmended optimise(PatchState& state, bool first) {
     if (state.is_anisotropic()) state.still = STILL_SETTLED;
     hold_growth(state);
     reduce_dihedrals(state);
-    Array<Triangle> far = approach_surface(state, first);
+    Array<Triangle> far = state.asked().evened && state.is_anisotropic()
+                              ? even_out_deviations(state, first)
+                              : approach_surface(state, first);
     if (state.stopped()) return {};
     Array<Triangle> folded = find_folds(state);
     return {std::move(far), std::move(folded), find_dihedrals(state, ANGLE_SLACK, true)};

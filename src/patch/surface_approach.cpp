@@ -21,8 +21,8 @@ constexpr int MOVES = 4, STRETCHED_MOVES = 2, INSERTION_ROUNDS = 10, SMOOTHED_RO
 constexpr double TOLERATED = 0.985, SPLIT_MARGIN = 0.97;
 
 // Of ``chord``: what moves aim at by the estimate, which knows sides and centroid: between them a
-// quadric is up to 4.2 % farther. And from where the farthest have vertices inserted before others.
-constexpr double ESTIMATE_MARGIN = 0.93, CLEARLY_FAR = 1.05;
+// quadric is up to 4.2 % farther.
+constexpr double ESTIMATE_MARGIN = 0.93;
 
 // Where edges are not split, smaller sizes only steer: with smaller ones than that they would no
 // longer be what edges are like.
@@ -35,14 +35,6 @@ constexpr double LEAST_SHAPE = 0.94;  // alpha that moves keep to or restore, wh
 constexpr double BAD_AT_LAST = 0.9, KEPT_AT_LAST = 0.98;
 
 using Triangles = Array<Triangle>;
-
-/// Those of the triangles with more than ``limit``.
-Triangles above(const Triangles& triangles, const Array<double>& deviation, double limit) {
-    Triangles found;
-    for (std::size_t k = 0; k < triangles.size(); ++k)
-        if (deviation[k] > limit) found.push_back(triangles[k]);
-    return found;
-}
 
 bool is_many(const PatchState& state, const Triangles& far) {
     const double part = state.is_anisotropic() ? MANY_FAR_STRETCHED : MANY_FAR;
@@ -65,11 +57,10 @@ class SurfaceApproach {
     [[nodiscard]] double stiffness() const {
         return state_.on_lattice() ? SHAPE_STIFFNESS : STIFFNESS;
     }
-    Triangles farthest_of(const Triangles& far);
     Triangles insert_far(Triangles far);
     Triangles split_far(Triangles far, bool first);
     Triangles left_of(const Triangles& suspects, double margin = SPLIT_MARGIN) {
-        return above(suspects, tracked_.measure(suspects), margin * chord_);
+        return tracked_.farther(suspects, margin * chord_);
     }
 
     PatchState& state_;
@@ -96,7 +87,7 @@ Triangles SurfaceApproach::shrink_in_rounds(int rounds, bool splits) {
             tracked_.add_moved();
         }
         state_.swap();
-        suspects = tracked_.changed(above(suspects, error, limit));
+        suspects = tracked_.changed(farther_than(limit, suspects, error));
     }
     return left_of(suspects);
 }
@@ -125,15 +116,6 @@ Triangles SurfaceApproach::raise_bad(Triangles far) {
     return move_far(left_of(tracked_.changed(far)), MOVES_AFTER_INSERTION);
 }
 
-/// The farthest of the triangles: those in the upper half of what they exceed the limit by.
-Triangles SurfaceApproach::farthest_of(const Triangles& far) {
-    const Array<double> error = tracked_.measure(far);
-    double most = 0.0;
-    for (const double e : error) most = std::max(most, e);
-    const double limit = SPLIT_MARGIN * chord_;
-    return above(far, error, most > CLEARLY_FAR * chord_ ? 0.5 * (limit + most) : limit);
-}
-
 /// Insert vertices at the farthest of the triangles ``far``, and smooth around them; returns those
 /// left. What is inserted at one brings others near: so by turns, the farthest first. Where the
 /// surface turns over, smoothing brings others far again: the last rounds do without.
@@ -141,7 +123,7 @@ Triangles SurfaceApproach::insert_far(Triangles far) {
     for (int round = 0; round < INSERTION_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
         tracked_.start_round();
         state_.marks.active.fill(0);
-        if (state_.split_farthest(farthest_of(far)) == 0) break;
+        if (state_.split_farthest(tracked_.farthest(far, SPLIT_MARGIN * chord_)) == 0) break;
         for (int pass = 0; pass < 2 && round < SMOOTHED_ROUNDS; ++pass) {
             state_.swap();
             if (pass == 0 && state_.on_lattice()) state_.swap_for_degree();

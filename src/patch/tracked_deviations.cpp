@@ -21,6 +21,9 @@ constexpr double SUSPECT_ONCE_MEASURED = 0.9;
 // estimate is for triangles small beside the features.
 constexpr std::size_t FEW_TRIANGLES = 20'000;
 constexpr double FLAT = 1e-9;
+// Of ``chord``: from where the farthest are taken before others.
+constexpr double CLEARLY_FAR = 1.05;
+
 constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
 constexpr std::size_t CORNERS_COMPARED = 1 << 10;    // with those before at once
 
@@ -31,8 +34,16 @@ double estimate(const PatchState& state, Triangle k) {
 
 }  // namespace
 
+Array<Triangle> farther_than(double limit, const Array<Triangle>& triangles,
+                             const Array<double>& deviation) {
+    Array<Triangle> found;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+        if (deviation[k] > limit) found.push_back(triangles[k]);
+    return found;
+}
+
 TrackedDeviations::TrackedDeviations(PatchState& state, double chord)
-    : state_(state), chord_(chord) {
+    : state_(state), chord_(chord), looked_at_(chord) {
     const bool few = state.t.region.size() <= FEW_TRIANGLES;
     const double one_sided = state.is_anisotropic() ? SUSPECT_PART_STRETCHED : SUSPECT_PART;
     const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
@@ -56,12 +67,24 @@ Array<Triangle> TrackedDeviations::suspects() const {
 }
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
-    Array<double> found = deviations(state_, triangles, chord_);
+    Array<double> found = deviations(state_, triangles, looked_at_);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const double guess = estimate(state_, triangles[k]);
         factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;
     }
     return found;
+}
+
+Array<Triangle> TrackedDeviations::farther(const Array<Triangle>& triangles, double limit) {
+    return farther_than(limit, triangles, measure(triangles));
+}
+
+Array<Triangle> TrackedDeviations::farthest(const Array<Triangle>& triangles, double limit) {
+    const Array<double> error = measure(triangles);
+    double most = 0.0;
+    for (const double e : error) most = std::max(most, e);
+    const bool is_clear = most > CLEARLY_FAR * chord_;
+    return farther_than(is_clear ? 0.5 * (limit + most) : limit, triangles, error);
 }
 
 void TrackedDeviations::start_round() {

@@ -12,14 +12,24 @@
 
 namespace surfmesh {
 
+/// Those of the triangles with more than ``limit``.
+Array<Triangle> farther_than(double limit, const Array<Triangle>& triangles,
+                             const Array<double>& deviation);
+
 class TrackedDeviations {
   public:
     TrackedDeviations(PatchState& state, double chord);
 
     /// All triangles that have to be measured.
     [[nodiscard]] Array<Triangle> suspects() const;
+    /// From here on triangles near this part of what is allowed have all samples.
+    void look_near(double part) { looked_at_ = part * chord_; }
     /// Distances of the triangles by samples.
     Array<double> measure(const Array<Triangle>& triangles);
+    /// Those of the triangles that are farther than ``limit``, by samples.
+    Array<Triangle> farther(const Array<Triangle>& triangles, double limit);
+    /// The farthest of them: those in the upper half of what they exceed the limit by.
+    Array<Triangle> farthest(const Array<Triangle>& triangles, double limit);
 
     /// Changes count from here on.
     void start_round();
@@ -34,6 +44,7 @@ class TrackedDeviations {
 
     PatchState& state_;
     double chord_;
+    double looked_at_;                        // near it triangles have all samples
     double suspect_, suspect_once_measured_;  // estimates from which triangles are measured
     Array<float> factor_;                     // measured over estimated; 0: not measured
     Array<Vertex> before_;                    // corners at the start of the round

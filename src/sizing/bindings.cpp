@@ -90,6 +90,12 @@ void bind_formulas_of_sizes(nb::module_& m) {
     m.def("principal_chord_sizes", &principal_at_each<principal_chord_sizes>, nb::arg("k1"),
           nb::arg("k2"), nb::arg("chord"), nb::arg("ratio"),
           "Edge lengths (n,), (n,) along the directions of k1 and k2, likewise.");
+    m.def("evened_chord_sizes", &principal_at_each<evened_chord_sizes>, nb::arg("k1"),
+          nb::arg("k2"), nb::arg("chord"), nb::arg("ratio"),
+          "The same of triangles whose corners move until they lie nearer.");
+    m.def("saddle_lattice_sizes", &principal_at_each<saddle_lattice_sizes>, nb::arg("k1"),
+          nb::arg("k2"), nb::arg("chord"), nb::arg("ratio"),
+          "The same of a lattice laid on a saddle where it deviates least.");
     m.def("principal_angle_sizes", &principal_at_each<principal_angle_sizes>, nb::arg("k1"),
           nb::arg("k2"), nb::arg("angle"), nb::arg("ratio"),
           "Edge lengths (n,), (n,) along the directions of k1 and k2, likewise.");
@@ -152,10 +158,12 @@ void bind_rules(nb::module_& m) {
     nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
     nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
     nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
-        .def(nb::init<double, bool, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
-             nb::arg("on_lattice") = false,
-             "is_width: chord is that of the whole band that a triangle needs. on_lattice: edges "
-             "lie where they deviate least.");
+        .def(
+            nb::init<double, bool, bool, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
+            nb::arg("on_lattice") = false, nb::arg("evened") = false,
+            "is_width: chord is that of the whole band that a triangle needs. on_lattice: edges "
+            "lie where they deviate least. evened: of stretched triangles whose corners move until "
+            "they lie nearer.");
     nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
         .def(nb::init<double>(), nb::arg("chord"));
     nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")

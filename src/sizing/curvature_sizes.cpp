@@ -15,6 +15,13 @@ constexpr double BOWL_RESERVE = 0.74;  // of stretched sizes, where both curvatu
 // In the worst direction: where the lattice follows the rims and not the principal directions.
 constexpr double LATTICE_RESERVE = 0.81;
 
+// Of stretched triangles whose corners move until these lie nearer: curved one way only, a bowl and a
+// saddle as much both ways.
+constexpr double EVENED_RESERVE = 0.84, EVENED_BOWL_RESERVE = 0.88, EVENED_SADDLE_RESERVE = 0.93;
+
+// In the worst direction of a lattice on saddles whose edges lie 15 degrees from principal ones.
+constexpr double SADDLE_LATTICE_RESERVE = 0.87, COSINE_30 = 0.86602540378443865;
+
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -35,6 +42,21 @@ double stretched_reserve(PrincipalCurvatures k, double b) {
     const double reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * std::abs(b);
     const double alike = most(balance(k, 1.0), 0.0);
     return reserve + (BOWL_RESERVE - STRETCHED_RESERVE) * (alike * alike);
+}
+
+/// The same where corners move: more where both curvatures decide, and most on saddles, where few
+/// triangles have an edge along a principal direction.
+double evened_reserve(PrincipalCurvatures k, double b) {
+    const double most_of_it = k.k1 * k.k2 < 0.0 ? EVENED_SADDLE_RESERVE : EVENED_BOWL_RESERVE;
+    const double both = std::sqrt(std::abs(balance(k, 1.0))) * std::abs(b);
+    return EVENED_RESERVE + (most_of_it - EVENED_RESERVE) * both;
+}
+
+/// Sizes of balance b at which triangles deviate by ``used``; never less than 2 ``chord``.
+PrincipalSizes sizes_within(PrincipalCurvatures k, double b, double used, double chord) {
+    const double bound = used / most(0.125, (1.0 + b) / 12.0);
+    return {most(std::sqrt(bound / std::abs(k.k1)), 2.0 * chord),
+            most(std::sqrt(bound / std::abs(k.k2)), 2.0 * chord)};
 }
 
 }  // namespace
@@ -58,6 +80,10 @@ double chord_size(PrincipalCurvatures k, double chord) {
 
 double lattice_chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(LATTICE_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
+}
+
+PrincipalSizes saddle_lattice_sizes(PrincipalCurvatures k, double chord, double ratio) {
+    return sizes_within(k, balance(k, ratio), SADDLE_LATTICE_RESERVE / COSINE_30 * chord, chord);
 }
 
 double quartic_factor(PrincipalCurvatures k) {
@@ -90,9 +116,12 @@ double normal_deviation_size(PrincipalCurvatures k, double angle) {
 
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
     const double b = balance(k, ratio);
-    const double bound = stretched_reserve(k, b) * chord / most(0.125, (1.0 + b) / 12.0);
-    return {most(std::sqrt(bound / std::abs(k.k1)), 2.0 * chord),
-            most(std::sqrt(bound / std::abs(k.k2)), 2.0 * chord)};
+    return sizes_within(k, b, stretched_reserve(k, b) * chord, chord);
+}
+
+PrincipalSizes evened_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
+    const double b = balance(k, ratio);
+    return sizes_within(k, b, evened_reserve(k, b) * chord, chord);
 }
 
 PrincipalSizes principal_angle_sizes(PrincipalCurvatures k, double angle, double ratio) {

@@ -100,6 +100,12 @@ struct PrincipalSizes {
 /// as smooth as that at umbilics.
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
 
+/// The same of triangles whose corners move until they lie nearer (src/patch/even_deviations.hpp).
+PrincipalSizes evened_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
+
+/// The same on saddles, of triangles that form a lattice laid as ``lattice_edge`` (src/patch) has it.
+PrincipalSizes saddle_lattice_sizes(PrincipalCurvatures k, double chord, double ratio);
+
 /// At which dihedral angles are at most ``angle`` (degrees).
 ///
 /// With h_i^2 |k_i| = a as above the slope jumps by a (3 - b) / (2 sqrt(3) h_i) across an edge

@@ -17,6 +17,9 @@ constexpr std::size_t PLACES = GRID * GRID;
 // Radians: over half the diagonal of the surface. It costs 1 % of the chord on cylinders.
 constexpr double LARGEST_TURN = 0.07;
 
+// The same of stretched triangles on saddles: corners that move make up for more.
+constexpr double LARGEST_TURN_STRETCHED = 0.6;
+
 // Ratios of curvatures that differ by less are one; below the second the best direction depends on
 // them, and from the third on there is none to speak of.
 constexpr double ALIKE = 0.05, TURNING = -0.6, BOWL = 0.3;
@@ -111,10 +114,70 @@ LatticeRates rates_at(const Around<double>& size, const Around<Point2>& along_fi
     return {norm(Point2{a, b}) / size[0], norm(grown)};
 }
 
+/// The same of two sizes, the larger of their growths.
+LatticeRates stretched_rates_at(const Around<double>& h1, const Around<double>& h2,
+                                const Around<Point2>& along_first,
+                                const Around<Point2>& along_second) {
+    const Point2 first = along_first[0], second = along_second[0];
+    const Point2 bracket = change(along_second, first) - change(along_first, second);
+    const double whole = area(first, second);
+    const double a = area(bracket, second) / whole, b = area(first, bracket) / whole;
+    const auto growth = [&](const Around<double>& h) {
+        return norm(Point2{change(h, first) / h1[0], change(h, second) / h2[0]});
+    };
+    return {norm(Point2{a / h1[0], b / h2[0]}), std::max(growth(h1), growth(h2))};
+}
+
+/// Are curvatures opposite, and sizes not bound by their ratio?
+bool are_saddles(const Array<PrincipalDirections>& at, double anisotropy) {
+    const double least = 1.0 / (anisotropy * anisotropy);
+    return std::all_of(at.begin(), at.end(), [&](const PrincipalDirections& own) {
+        const double ratio = -own.k.k1 / own.k.k2;
+        return ratio > least && ratio * least < 1.0;
+    });
+}
+
+/// The same of two sizes along the principal directions, on saddles alone.
+bool keeps_stretched_lattice(SurfaceReader& surface, Point2 extent, const SizeRules& rules,
+                             double slope) {
+    const ParameterBox box = surface.domain();
+    const Array<Point2> uv = places_over(box);
+    const Array<PrincipalDirections> at = directions_at(surface, {uv.data(), uv.size()});
+    if (surface.failed() || at.size() < uv.size() || !are_saddles(at, rules.anisotropy))
+        return false;
+    Array<PrincipalCurvatures> k;
+    for (const PrincipalDirections& own : at) k.push_back(own.k);
+    Array<PrincipalSizes> size(at.size());
+    if (!rules.principal({k.data(), k.size()}, {&rules.anisotropy, 1}, {size.data(), size.size()}))
+        return false;
+    double largest = 0.0;
+    for (const auto& [first, second] : size) largest = std::max(largest, std::max(first, second));
+    if (largest >= rules.largest || std::min(extent.x, extent.y) < LEAST_ROWS_STRETCHED * largest)
+        return false;
+    const double farthest = 0.5 * norm(extent);
+    const Point2 wide = box.high - box.low;
+    for (std::size_t place = 0; place < PLACES; ++place) {
+        Around<Point2> d1, d2;
+        Around<double> h1, h2;
+        for (std::size_t beside = 0; beside < BESIDE.size(); ++beside) {
+            const std::size_t row = place * BESIDE.size() + beside;
+            d1[beside] = at[row].d1;
+            d2[beside] = at[row].d2;
+            h1[beside] = size[row].first;
+            h2[beside] = size[row].second;
+        }
+        const auto [turn, growth] =
+            stretched_rates_at(h1, h2, steps_along(d1, h1, wide), steps_along(d2, h2, wide));
+        if (!(growth <= slope && turn * farthest <= LARGEST_TURN_STRETCHED)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool keeps_lattice(SurfaceReader& surface, Point2 extent, const SizeRules& rules, double slope) {
     if (rules.by_curvature.empty()) return false;
+    if (rules.is_anisotropic()) return keeps_stretched_lattice(surface, extent, rules, slope);
     const ParameterBox box = surface.domain();
     const Array<Point2> uv = places_over(box);
     const Array<PrincipalDirections> at = directions_at(surface, uv);

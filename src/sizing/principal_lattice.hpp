@@ -14,8 +14,11 @@
 namespace surfmesh {
 
 /// Triangles across a surface, both ways, from which a lattice is laid: rims have rows of their own.
-inline constexpr double LEAST_ROWS = 24.0;
+inline constexpr double LEAST_ROWS = 24.0, LEAST_ROWS_STRETCHED = 16.0;
 
+/// Where sizes depend on the direction, on saddles whose metric of sizes is flat: there all directions
+/// are alike but for the edges of a lattice, and the best ones are those of b = -1.
+///
 /// extent: of the surface's chart. rules: for such a lattice, none of them the caller's own. slope:
 /// growth of sizes per length at most. The reader says whether it could be told.
 [[nodiscard]] bool keeps_lattice(SurfaceReader& surface, Point2 extent, const SizeRules& rules,

@@ -34,7 +34,10 @@ bool ChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
                                 std::span<const double> ratio,
                                 std::span<PrincipalSizes> out) const {
     for (std::size_t i = 0; i < k.size(); ++i) {
-        const auto [first, second] = principal_chord_sizes(k[i], chord_, ratio_of(ratio, i));
+        const auto sizes_of = !evened_      ? principal_chord_sizes
+                              : on_lattice_ ? saddle_lattice_sizes
+                                            : evened_chord_sizes;
+        const auto [first, second] = sizes_of(k[i], chord_, ratio_of(ratio, i));
         const double part = factor(k[i], ratio_of(ratio, i));
         out[i] = {part * first, part * second};
     }

@@ -49,11 +49,12 @@ class PlaceRule {
 
 /// ``chord``, model units. is_width: of the whole band that a triangle needs, where it may move to
 /// lie in the middle of it. on_lattice: of isotropic triangles whose edges lie where they deviate
-/// least.
+/// least. evened: of stretched triangles whose corners move to where they may stay large.
 class ChordRule final : public CurvatureRule {
   public:
-    explicit ChordRule(double chord, bool is_width = false, bool on_lattice = false)
-        : chord_(chord), is_width_(is_width), on_lattice_(on_lattice) {}
+    explicit ChordRule(double chord, bool is_width = false, bool on_lattice = false,
+                       bool evened = false)
+        : chord_(chord), is_width_(is_width), on_lattice_(on_lattice), evened_(evened) {}
     bool sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const override;
     bool principal_sizes(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
                          std::span<PrincipalSizes> out) const override;
@@ -63,7 +64,7 @@ class ChordRule final : public CurvatureRule {
     [[nodiscard]] double factor(PrincipalCurvatures k, double ratio) const;
     [[nodiscard]] double size(PrincipalCurvatures k) const;
     double chord_;
-    bool is_width_, on_lattice_;
+    bool is_width_, on_lattice_, evened_;
 };
 
 /// ``chord`` of quadratic triangles, model units: the same in all directions.

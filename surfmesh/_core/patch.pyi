@@ -267,9 +267,9 @@ class PatchState:
 class PatchSettings:
     """What a patch is meshed on, and how."""
 
-    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, slope: float | None = None, is_width: bool = False, on_lattice: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
+    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, slope: float | None = None, is_width: bool = False, on_lattice: bool = False, evened: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
         """
-        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted. slope: growth per length that sizes lowered there are graded to on the mesh. is_width: chord is that of the whole band that a triangle needs. on_lattice: sizes are for a lattice laid along principal directions.
+        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted. slope: growth per length that sizes lowered there are graded to on the mesh. is_width: chord is that of the whole band that a triangle needs. on_lattice: sizes are for a lattice laid along principal directions. evened: vertices move until triangles deviate alike, and may stay large.
         before_stage is called with each PatchStage, while_packing now and then with the number of circles, before_pass before each pass of smoothing; what they raise stops the work and comes through.
         """
 

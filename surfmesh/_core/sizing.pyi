@@ -52,6 +52,12 @@ def normal_deviation_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None
 def principal_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
 
+def evened_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """The same of triangles whose corners move until they lie nearer."""
+
+def saddle_lattice_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """The same of a lattice laid on a saddle where it deviates least."""
+
 def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
 
@@ -79,9 +85,9 @@ class PlaceRule:
     """Sizes that depend on the place alone."""
 
 class ChordRule(CurvatureRule):
-    def __init__(self, chord: float, is_width: bool = False, on_lattice: bool = False) -> None:
+    def __init__(self, chord: float, is_width: bool = False, on_lattice: bool = False, evened: bool = False) -> None:
         """
-        is_width: chord is that of the whole band that a triangle needs. on_lattice: edges lie where they deviate least.
+        is_width: chord is that of the whole band that a triangle needs. on_lattice: edges lie where they deviate least. evened: of stretched triangles whose corners move until they lie nearer.
         """
 
 class QuadraticChordRule(CurvatureRule):

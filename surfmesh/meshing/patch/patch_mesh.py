@@ -124,7 +124,7 @@ def _meshed(
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         box=room.box, expected=room.expected, optimise=optimise, first=first,
         with_roots=sizing.is_anisotropic, slope=sizing.gradient, is_width=sizing.is_balanced,
-        on_lattice=field.law.is_on_lattice,
+        on_lattice=field.law.is_on_lattice, evened=sizing.is_evened,
         before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),
         while_packing=None if watch is None else room.told(watch),
         before_pass=None if watch is None else watch.pulse,

@@ -11,6 +11,7 @@ from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.sizing.rules.curvature_size import (
     chord_size,
+    evened_chord_sizes,
     principal_chord_sizes,
     quadratic_chord_size,
 )
@@ -64,7 +65,8 @@ def _allowed(
     ends = np.append(first, len(triangles)).astype(np.int64)
     k1, k2, degenerate = curvatures_at(known.middle_uv(triangles), ends, surfaces)
     if sizing and sizing.is_anisotropic:
-        size = np.minimum(*principal_chord_sizes(k1, k2, chord, sizing.anisotropy))
+        sizes = evened_chord_sizes if sizing.is_evened else principal_chord_sizes
+        size = np.minimum(*sizes(k1, k2, chord, sizing.anisotropy))
     elif sizing and sizing.is_curved:
         size = np.empty(len(chord))
         for one in np.unique(chord).tolist():

@@ -220,6 +220,13 @@ class Sizing:
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
 
     @property
+    def is_evened(self) -> bool:
+        """Do vertices move until stretched triangles deviate alike? Not where these keep an
+        ``angle`` too, or leave the surface: both would be undone."""
+        on_surface = self.angle is None and not self.is_balanced
+        return self.fewest and self.is_anisotropic and self.chord is not None and on_surface
+
+    @property
     def is_curved(self) -> bool:
         """Is ``chord`` that of quadratic triangles, and not of the straight ones between their
         corners?"""

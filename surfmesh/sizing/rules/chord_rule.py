@@ -11,8 +11,10 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     STRAIGHT_RESERVE,
     chord_size,
+    evened_chord_sizes,
     lattice_chord_size,
     principal_chord_sizes,
+    saddle_lattice_sizes,
     share_of_width,
 )
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
@@ -42,18 +44,23 @@ class ChordRule(CurvatureRule):
     middle of it."""
     on_lattice: bool = field(default=False, compare=False)
     """Edges lie where they deviate least: see ``keeps_lattice``."""
+    is_evened: bool = field(default=False, compare=False)
+    """Corners of stretched triangles move until these lie nearer."""
 
     @classmethod
     def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["ChordRule"]:
         if sizing.straight_chord is not None:
-            yield cls(sizing.straight_chord, sizing.is_anisotropic, sizing.is_balanced)
+            yield cls(
+                sizing.straight_chord, sizing.is_anisotropic, sizing.is_balanced,
+                is_evened=sizing.is_evened,
+            )  # fmt: skip
 
     def __str__(self) -> str:
         return f"chord {self.chord:g}"
 
     @property
     def core(self) -> core_sizing.CurvatureRule:
-        return core_sizing.ChordRule(self.chord, self.is_width, self.on_lattice)
+        return core_sizing.ChordRule(self.chord, self.is_width, self.on_lattice, self.is_evened)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         size = lattice_chord_size if self.on_lattice else chord_size
@@ -63,7 +70,10 @@ class ChordRule(CurvatureRule):
         self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
     ) -> np.ndarray:
         factor = self._factor(k1, k2, ratio)
-        both = principal_chord_sizes(k1, k2, self.chord, ratio)
+        of_principal = principal_chord_sizes
+        if self.is_evened:
+            of_principal = saddle_lattice_sizes if self.on_lattice else evened_chord_sizes
+        both = of_principal(k1, k2, self.chord, ratio)
         return np.stack([factor * size for size in both], axis=1)
 
     def _factor(
@@ -73,7 +83,8 @@ class ChordRule(CurvatureRule):
         return np.sqrt(share_of_width(k1, k2, ratio)) if self.is_width else 1.0
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        reserve = STRAIGHT_RESERVE if self.is_anisotropic else CURVE_RESERVE
+        is_cut_short = self.is_anisotropic and not self.is_evened
+        reserve = STRAIGHT_RESERVE if is_cut_short else CURVE_RESERVE
         left = np.maximum(reserve * self.chord - curve.tolerance, LEAST_LEFT * self.chord)
         with np.errstate(divide="ignore", over="ignore"):
             own = np.sqrt(8.0 * left / curve.curvature)

@@ -78,6 +78,23 @@ def principal_chord_sizes(
     return core.principal_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
 
 
+def evened_chord_sizes(
+    k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray, ratio: np.ndarray | float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same of triangles whose corners move until they lie nearer: ``Sizing(fewest=True)``."""
+    if isinstance(chord, np.ndarray) and chord.ndim:
+        first, second = _by_chord(core.evened_chord_sizes, chord, k1, k2, _each_of(ratio, k1))
+        return first, second
+    return core.evened_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
+
+
+def saddle_lattice_sizes(
+    k1: np.ndarray, k2: np.ndarray, chord: float, ratio: np.ndarray | float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same of triangles that form a lattice on a saddle, laid where it deviates least."""
+    return core.saddle_lattice_sizes(*_rows(k1, k2), chord, _each_of(ratio, k1))
+
+
 def principal_angle_sizes(
     k1: np.ndarray, k2: np.ndarray, angle: float, ratio: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -78,7 +78,9 @@ class SizeRules:
         sized by their direction as it is.
         """
         sizing = self.sizing
-        if sizing.straight_chord is None or sizing.is_anisotropic or sizing.is_balanced:
+        if sizing.straight_chord is None or sizing.is_balanced:
+            return None
+        if sizing.is_anisotropic and not sizing.is_evened:
             return None
         rules = tuple(
             replace(rule, on_lattice=True) if isinstance(rule, ChordRule) else rule

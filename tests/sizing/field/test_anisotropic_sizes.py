@@ -17,7 +17,9 @@ from surfmesh.sizing.rules.curvature_size import (
     STRAIGHT_RESERVE,
     STRETCHED_RESERVE,
     chord_size,
+    evened_chord_sizes,
     principal_chord_sizes,
+    saddle_lattice_sizes,
 )
 from surfmesh.sizing.rules.direction_size import size_along
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
@@ -33,6 +35,25 @@ def test_stretched_triangles_use_what_they_may_of_the_chord(k2, ratio):
     h2 = min(h2, ratio * h1)
     used = searched_deviation(k1, k2, h1, h2) / chord
     assert 0.9 * STRETCHED_RESERVE < used < 1.05 * STRAIGHT_RESERVE
+
+
+@pytest.mark.parametrize("k2", [1.0, 0.3, 1e-3, -1e-3, -0.3, -1.0])
+def test_where_deviations_are_evened_out_more_of_the_chord_is_used(k2):
+    k1, chord, ratio = 1.0, 1e-6, 30.0
+    h1, h2 = (float(h[0]) for h in evened_chord_sizes(np.array([k1]), np.array([k2]), chord, ratio))
+    used = searched_deviation(k1, k2, h1, min(h2, ratio * h1)) / chord
+    assert 0.82 < used < 0.97  # all triangles may: a side of that length is within
+
+
+def test_lattices_on_saddles_are_sized_for_edges_between_the_principal_directions():
+    k1, k2, chord = 2.0, -0.5, 1e-6
+    h1, h2 = (
+        float(h[0]) for h in saddle_lattice_sizes(np.array([k1]), np.array([k2]), chord, 30.0)
+    )
+    turned = np.radians(15.0 + 60.0 * np.arange(3))
+    edge = np.stack([h1 * np.cos(turned), h2 * np.sin(turned)], axis=1)
+    sag = np.abs(edge**2 @ (k1, k2)) / 8.0
+    assert np.isclose(sag.max(), 0.87 * chord) and sag.min() < 1e-12 * chord
 
 
 def test_ratio_one_is_the_isotropic_rule():

@@ -50,6 +50,14 @@ def test_lattices_are_for_isotropic_sizes_by_chord_alone(other):
     assert not law.is_on_lattice
 
 
+@pytest.mark.parametrize(
+    "name, kept", [("catenoid", True), ("enneper", True), ("torus", False), ("sphere", False)]
+)
+def test_the_fewest_stretched_triangles_form_lattices_on_flat_saddles(name, kept):
+    sizing = sm.Sizing(chord=2e-4, anisotropy=100.0, fewest=True)
+    assert SizeLaw.of(sm.load(name), sizing).is_on_lattice is kept
+
+
 def lattice_angles(surface, mesh):
     """(m,) degrees, -30 to 30, of the edges of triangles from the smaller curvature."""
     uv = mesh.uv.mean(axis=1)
@@ -107,10 +115,11 @@ def test_only_the_reserve_differs(ratio):
     assert 1.03 < float(larger[0]) < 1.09
 
 
+@pytest.mark.parametrize("stretched", [{}, {"anisotropy": 100.0, "fewest": True}])
 @pytest.mark.parametrize("chord", [1e-2, 1e-3, 1e-4])
 @pytest.mark.parametrize("name", gallery())
-def test_the_core_finds_lattices_as_the_twin_does(name, chord):
+def test_the_core_finds_lattices_as_the_twin_does(name, chord, stretched):
     surface = load_formula_file(gallery()[name])
-    law = SizeLaw.of(surface, sm.Sizing(chord=chord))
+    law = SizeLaw.of(surface, sm.Sizing(chord=chord, **stretched))
     rules, extent = law.rules.on_lattice(), law.chart.extent
     assert keeps_lattice(surface, extent, rules) == naive.keeps_lattice(surface, extent, rules)
