@@ -43,7 +43,7 @@ Packing packed(const Background& background, const Box& box, const Place& origin
     Packing made;
     {
         const nb::gil_scoped_release released;
-        made = pack(background, limits, expected, watch_of(calls, watch));
+        made = pack({background}, limits, expected, watch_of(calls, watch));
     }
     calls.finish();
     return made;
@@ -56,7 +56,7 @@ Packing packed_box(const Background& background, const Box& box, std::size_t exp
     Packing made;
     {
         const nb::gil_scoped_release released;
-        made = pack_box(background, limits.low, limits.high, expected, watch_of(calls, watch));
+        made = pack_box({background}, limits.low, limits.high, expected, watch_of(calls, watch));
     }
     calls.finish();
     return made;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "sizing/curvature_sizes.hpp"
@@ -26,6 +27,8 @@ struct AskedAccuracy {
     bool is_width = false;       // ``chord`` is that of the whole band around the surface that a
                                  // triangle needs, on one side or on both
     bool keeps_lowered = false;  // nodes of the boundary keep sizes that were lowered there
+    bool fewest = false;         // as few triangles as keep ``chord``, for more time
+    double largest = std::numeric_limits<double>::infinity();  // size that is asked for
 };
 
 /// Radius below which a surface is said to bend sharply: no triangle is small enough there.

@@ -104,6 +104,9 @@ class PatchState {
     void raise_worst(double least);
     /// Move the free corners of the triangles until their stars keep the bounds, or are nearer.
     void bring_nearer(std::span<const Triangle> triangles, StarBounds bounds);
+    /// Move active vertices to where all triangles lie about as far from the surface, ``allowed`` or
+    /// nearer.
+    void even_deviations(double allowed);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
@@ -145,6 +148,7 @@ class PatchState {
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink);
     void place_nodes();
+    void keep_packed_sizes();
     int set_new(Vertex first);
 
     BoundaryNodes nodes_;
