@@ -15,19 +15,19 @@ namespace {
 constexpr int POWER = 12;
 constexpr double DISTANCE_WEIGHT = 5.0, EDGE_WEIGHT = 0.6;
 
-constexpr double NEAR = 0.3;           // of what is allowed: less counts for nothing
-constexpr double FARTHEST = 1.5;       // and more than this no more
-constexpr double LONGEST_STEP = 0.1;   // in unit lengths: the power lets none be foreseen farther
+constexpr double NEAR = 0.3;            // of what is allowed: less counts for nothing
+constexpr double FARTHEST = 1.5;        // and more than this no more
+constexpr double LONGEST_STEP = 0.1;    // in unit lengths: the power lets none be foreseen farther
 constexpr double SMALLEST_STEP = 1e-4;  // shorter ones are not made
-constexpr double STILL_EVEN = 0.01;    // a vertex that moves less leaves its neighbours alone
-constexpr double WORST_SHAPE = 0.7;    // a move may lower the worst alpha, but not below this
+constexpr double STILL_EVEN = 0.01;     // a vertex that moves less leaves its neighbours alone
+constexpr double WORST_SHAPE = 0.7;     // a move may lower the worst alpha, but not below this
 constexpr double HALF_INVERSE_ROOT_3 = 0.28867513459481287;
 constexpr std::size_t MOST_SPOKES = 16;
 
 /// An edge from the vertex that moves.
 struct Spoke {
     Vertex end;
-    Point2 way;               // in the unit tangent plane
+    Point2 way;                // in the unit tangent plane
     double rises, difference;  // sum of what both ends see of it, and by how much they differ
 };
 
@@ -141,7 +141,8 @@ struct EveningPass {
   private:
     /// The edges from v, the first once more at the end; none where v has no tangent plane, coincides
     /// with others or has more edges than are looked at.
-    std::size_t find_spokes(Vertex v, HalfEdge start, std::array<Spoke, MOST_SPOKES + 1>& to) const {
+    std::size_t find_spokes(Vertex v, HalfEdge start,
+                            std::array<Spoke, MOST_SPOKES + 1>& to) const {
         if (is_zero(s.normal[v])) return 0;
         std::size_t count = 0;
         HalfEdge e = start;

@@ -38,7 +38,8 @@ class QuadricFit {
         const double cyz = xy_ * xz_ - xx_ * yz_, czz = xx_ * yy_ - xy_ * xy_;
         const double det = xx_ * cxx + xy_ * cxy + xz_ * cxz;
         if (!(det > ON_TWO_LINES * xx_ * yy_ * zz_)) return {0.0, 0.0, 0.0};
-        return {(cxx * rx_ + cxy * ry_ + cxz * rz_) / det, (cxy * rx_ + cyy * ry_ + cyz * rz_) / det,
+        return {(cxx * rx_ + cxy * ry_ + cxz * rz_) / det,
+                (cxy * rx_ + cyy * ry_ + cyz * rz_) / det,
                 (cxz * rx_ + cyz * ry_ + czz * rz_) / det};
     }
 

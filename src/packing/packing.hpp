@@ -33,7 +33,6 @@ using Draw = std::function<bool(std::size_t count, Array<double>& drawn)>;
 [[nodiscard]] Packing empty_packing(const PackingLimits& limits, std::size_t expected);
 
 /// Advance the front of circles of the background's sizes until there is no more to do.
-[[nodiscard]] PackingEnd advance_front(Packing& p, const CircleSizes& sizes,
-                                       const Watch& watch);
+[[nodiscard]] PackingEnd advance_front(Packing& p, const CircleSizes& sizes, const Watch& watch);
 
 }  // namespace surfmesh

@@ -12,7 +12,7 @@ namespace surfmesh {
 
 /// Fraction of ``chord`` that triangles shall use. Beyond, more vertices have to be inserted than
 /// larger triangles save.
-inline constexpr double USED_EVENLY = 0.82;
+inline constexpr double USED_EVENLY = 0.84;
 
 /// Is that what is asked for?
 [[nodiscard]] inline bool uses_evenly(const AskedAccuracy& asked, const Background& background) {

@@ -57,9 +57,8 @@ double decided_by_chord(PrincipalCurvatures k, double h, const AskedAccuracy& as
 
 }  // namespace
 
-Array<NodeBend> node_bends(SurfaceReader& surface, const Chart& chart,
-                           const Background& background, const AskedAccuracy& asked,
-                           bool on_lattice) {
+Array<NodeBend> node_bends(SurfaceReader& surface, const Chart& chart, const Background& background,
+                           const AskedAccuracy& asked, bool on_lattice) {
     const Array<Point2> places = NodePlaces(background).find();
     Array<NodeBend> found(places.size(), NodeBend{{0.0, 0.0, 0.0}, 0.0});
     const double over = 1.0 / (8.0 * *asked.chord);
@@ -79,10 +78,10 @@ Array<NodeBend> node_bends(SurfaceReader& surface, const Chart& chart,
                 if (forms.degenerate) continue;
                 const Point2 r = rates[i];
                 const double h = 1.0 / background.metric_root[first + i].inverse_size;
-                found[first + i] = {{over * forms.L * r.x * r.x, over * forms.M * r.x * r.y,
-                                     over * forms.N * r.y * r.y},
-                                    decided_by_chord(principal_curvatures(forms), h, asked,
-                                                     on_lattice)};
+                found[first + i] = {
+                    {over * forms.L * r.x * r.x, over * forms.M * r.x * r.y,
+                     over * forms.N * r.y * r.y},
+                    decided_by_chord(principal_curvatures(forms), h, asked, on_lattice)};
             }
         });
     return found;
