@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "optimisation/marked_triangles.hpp"
+#include "patch/angle_reduction.hpp"
 #include "patch/tracked_deviations.hpp"
 
 namespace surfmesh {
@@ -36,13 +37,25 @@ constexpr double KEPT_OFF = 0.05;
 
 using Triangles = Array<Triangle>;
 
+/// Move all vertices until none is to move any more, or often.
+void even_all(PatchState& state, double allowed) {
+    const double kept = std::exchange(state.kept_drift, KEPT_OFF);
+    state.marks.active.fill(1);
+    for (int pass = 0; pass < PASSES; ++pass) {
+        state.even_deviations(allowed);
+        if (state.moved.empty()) break;
+    }
+    state.settle();
+    state.kept_drift = kept;
+}
+
+/// Triangles that are too far from the surface, and their rounds.
 class EvenUse {
   public:
     explicit EvenUse(PatchState& state)
         : state_(state), chord_(*state.asked().chord), tracked_(state, chord_) {}
 
     Triangles in_rounds(bool first) {
-        even_all();
         Triangles far = beyond(TOO_FAR, tracked_.suspects());
         if (first && static_cast<double>(far.size()) > MANY_FAR_EVENLY * state_.t.triangles())
             return far;
@@ -53,17 +66,6 @@ class EvenUse {
     }
 
   private:
-    void even_all() {
-        const double kept = std::exchange(state_.kept_drift, KEPT_OFF);
-        state_.marks.active.fill(1);
-        for (int pass = 0; pass < PASSES; ++pass) {
-            state_.even_deviations(AIMED_AT * chord_);
-            if (state_.moved.empty()) break;
-        }
-        state_.settle();
-        state_.kept_drift = kept;
-    }
-
     /// Insert vertices at the farthest of the triangles, and move those around; returns those left.
     Triangles insert_far(Triangles far, int rounds) {
         for (int round = 0; round < rounds && !far.empty() && !state_.stopped(); ++round) {
@@ -132,6 +134,12 @@ class EvenUse {
 
 }  // namespace
 
-Triangles approach_evenly(PatchState& state, bool first) { return EvenUse(state).in_rounds(first); }
+Triangles approach_evenly(PatchState& state, bool first) {
+    const double chord = *state.asked().chord;
+    if (TrackedDeviations(state, chord).suspects().empty()) return {};
+    even_all(state, AIMED_AT * chord);
+    reduce_dihedrals(state);  // moves that even out distances know nothing of angles
+    return EvenUse(state).in_rounds(first);
+}
 
 }  // namespace surfmesh

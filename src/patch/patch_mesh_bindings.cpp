@@ -64,9 +64,8 @@ void bind_settings(nb::module_& m) {
                bool fewest, std::optional<double> largest, nb::object before_stage,
                nb::object while_packing, nb::object before_pass) {
                 require_box(box);
-                AskedAccuracy asked{chord, angle, min_size, slope, is_width};
-                asked.fewest = fewest;
-                if (largest) asked.largest = *largest;
+                const AskedAccuracy asked{chord,    angle, min_size, slope,
+                                          is_width, false, fewest,   largest.value_or(NO_LARGEST)};
                 const PatchTask task{nb::cast<const Surface&>(surface),
                                      nb::cast<const Chart&>(chart),
                                      nb::cast<const Background&>(background),

@@ -29,7 +29,6 @@ from surfmesh.meshing.patch.packing import packing_error, room_for_packing
 from surfmesh.meshing.patch.size_requests import SizeRequests
 from surfmesh.meshing.progress import Stopwatch
 from surfmesh.sizing.field.size_field import SizeField
-from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 STAGES = {
@@ -125,7 +124,7 @@ def _meshed(
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         box=room.box, expected=room.expected, optimise=optimise, first=first,
         with_roots=sizing.is_anisotropic, slope=sizing.gradient, is_width=sizing.is_balanced,
-        on_lattice=field.law.is_on_lattice, fewest=sizing.fewest, largest=_largest(sizing),
+        on_lattice=field.law.is_on_lattice, fewest=sizing.fewest, largest=sizing.largest_stated,
         before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),
         while_packing=None if watch is None else room.told(watch),
         before_pass=None if watch is None else watch.pulse,
@@ -147,12 +146,6 @@ def _meshed(
     if found.end != PatchEnd.DONE:
         raise patch_error(found, uv, segments, surface)
     return found
-
-
-def _largest(sizing: Sizing) -> float | None:
-    """The size that no edge is to be asked to be longer than."""
-    stated = [size for size in (sizing.max_size, sizing.size) if isinstance(size, float)]
-    return min(stated) if stated else None
 
 
 def patch_error(

@@ -245,6 +245,12 @@ class Sizing:
         return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
 
     @property
+    def largest_stated(self) -> float | None:
+        """The number that no wanted edge length may exceed; None where none is given."""
+        stated = [size for size in (self.max_size, self.size) if isinstance(size, float)]
+        return min(stated) if stated else None
+
+    @property
     def has_law(self) -> bool:
         """Do sizes depend on the place by a law or by sources?"""
         return callable(self.size) or bool(self.sources)
