@@ -1,16 +1,16 @@
 // The sizes of circles as the front asks for them: by the place, and where it helps by the direction.
 //
 // A triangle of the front has an edge, and with it, being equilateral in its metric, the directions
-// of all three. In the metric the surface rises over its tangent plane by the quadric y . B y, so
+// of all three. In the metric the surface rises over its tangent plane by the quadric 4 y . B y, so
 //
 //     edges    |m + c|, |m - c / 2 + s|, |m - c / 2 - s|     B = (m + d  e; e  m - d)
 //     centre   4/3 |m|                                       c = d cos 2a + e sin 2a
 //                                                            s = sqrt 3 / 2 (e cos 2a - d sin 2a)
 //
-// are what it deviates by in fractions of the chord, with a the angle of the edge: deviation of the
-// middle of an edge is the quadric over 4, and a unit of B is four chords (curvature_sizes.hpp has
-// them for the worst angle). Sizes of a field hold for the worst direction, and with a reserve; in
-// others they may grow until the deviation is what triangles shall use.
+// are what it deviates by, with a the angle of the edge. B is the second form over eight chords, so
+// that these are fractions of the chord (curvature_sizes.hpp has them for the worst angle). Sizes of
+// a field hold for the worst direction, and with a reserve; in others they may grow until the
+// deviation is what triangles shall use.
 //
 // In: a field, and at its nodes the quadric and how far it is the chord that decides. Out: sizes.
 #pragma once
@@ -22,8 +22,8 @@
 
 namespace surfmesh {
 
-/// At a node of a field: the quadric of the surface in the scaled plane, over four chords, and by how
-/// much the chord decides its size: 0 where it does not, 1 where it does.
+/// At a node of a field: the second form in the scaled plane over eight chords, and by how much the chord
+/// decides its size: 0 where it does not, 1 where it does.
 struct NodeBend {
     SizeTensor quadric;
     double decided;

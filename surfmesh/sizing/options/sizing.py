@@ -244,6 +244,12 @@ class Sizing:
         """
         return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
 
+    def uses_evenly(self, is_first: bool) -> bool:
+        """Do triangles of one size in all directions use ``chord`` evenly? is_first: no earlier
+        round has asked for smaller sizes. Where one has, and an ``angle`` is to hold, it may be the
+        even use that is in its way."""
+        return self.fewest and (is_first or self.angle is None)
+
     @property
     def largest_stated(self) -> float | None:
         """The number that no wanted edge length may exceed; None where none is given."""
