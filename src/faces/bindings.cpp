@@ -99,8 +99,10 @@ void bind_manner(nb::module_& m) {
             "__init__",
             [](FaceManner* made, std::optional<double> chord, std::optional<double> angle,
                double min_size, bool optimise, bool first, bool is_anisotropic,
-               std::optional<double> slope, bool keeps_lowered, bool on_lattice, bool evened) {
-                new (made) FaceManner{{chord, angle, min_size, slope, false, keeps_lowered, evened},
+               std::optional<double> slope, bool keeps_lowered, bool on_lattice, bool fewest,
+               std::optional<double> largest) {
+                new (made) FaceManner{{chord, angle, min_size, slope, false, keeps_lowered, fewest,
+                                       largest.value_or(NO_LARGEST)},
                                       optimise,
                                       first,
                                       is_anisotropic,
@@ -109,15 +111,16 @@ void bind_manner(nb::module_& m) {
             nb::arg("chord").none(), nb::arg("angle").none(), nb::arg("min_size"),
             nb::arg("optimise") = true, nb::arg("first") = true, nb::arg("is_anisotropic") = false,
             nb::arg("slope") = nb::none(), nb::arg("keeps_lowered") = false,
-            nb::arg("on_lattice") = false, nb::arg("evened") = false,
+            nb::arg("on_lattice") = false, nb::arg("fewest") = false,
+            nb::arg("largest") = nb::none(),
             "keeps_lowered: nodes of the boundary keep sizes that were lowered there. "
             "chord (model units), angle (degrees), min_size: what is asked for, with 0 for no "
             "least size. optimise: else only diagonals are chosen. first: the sizes come from no "
             "earlier round. is_anisotropic: they depend on the direction. slope: growth per "
             "length that such sizes are graded to on the mesh. on_lattice: sizes are for a lattice "
-            "laid along principal directions. evened: vertices move until triangles deviate alike, "
-            "and may stay "
-            "large.");
+            "laid along principal directions. fewest: sizes up to ``largest`` follow the direction "
+            "of "
+            "edges, and the chord is used evenly.");
 }
 
 InwardFace inward_face(std::shared_ptr<Surface> surface, std::shared_ptr<FaceBoundary> boundary,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimisation/best_way.hpp"
+#include "optimisation/star_quadric.hpp"
 #include "triangulation/parts.hpp"
 
 namespace surfmesh {
@@ -40,40 +41,14 @@ double excess(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge
     return sum;
 }
 
-// Of the product of the diagonal: a smaller determinant says that the neighbours lie on two lines.
-constexpr double ON_TWO_LINES = 1e-6;
-
-/// Height of the surface over the tangent plane: (xx x^2 + 2 xy x y + yy y^2) / 2, in unit lengths
-/// along the plane and model units off it.
-struct Quadric {
-    double xx, xy, yy;
-};
-
-/// The quadric through the neighbours of v, least squares; a plane where they determine none.
+/// The quadric through the neighbours of v.
 Quadric quadric_at(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start) {
-    // the normal equations (xx xy xz; xy yy yz; xz yz zz) (quadric) = (rx ry rz)
-    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0, rx = 0.0, ry = 0.0, rz = 0.0;
+    QuadricFit fit;
     for_each_in_star(t, start, [&](HalfEdge e) {
         const Vertex p = t.tri[next_half_edge(e)];
-        const Point2 step = chord(s, v, p);
-        const double x = step.x * step.x, y = 2.0 * step.x * step.y, z = step.y * step.y;
-        const double twice = 2.0 * rise(s, v, p);
-        xx += x * x;
-        xy += x * y;
-        xz += x * z;
-        yy += y * y;
-        yz += y * z;
-        zz += z * z;
-        rx += x * twice;
-        ry += y * twice;
-        rz += z * twice;
+        fit.add(chord(s, v, p), 2.0 * rise(s, v, p));
     });
-    const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
-    const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
-    const double det = xx * cxx + xy * cxy + xz * cxz;
-    if (!(det > ON_TWO_LINES * xx * yy * zz)) return {0.0, 0.0, 0.0};
-    return {(cxx * rx + cxy * ry + cxz * rz) / det, (cxy * rx + cyy * ry + cyz * rz) / det,
-            (cxz * rx + cyz * ry + czz * rz) / det};
+    return fit.quadric();
 }
 
 /// Where a vertex is, and the way it came from where it was.
@@ -89,8 +64,7 @@ class StarPosition {
     void place(Triangulation& t, SurfaceFrames& s, Point2 way) const {
         const SizeTensor h = t.size[v_];
         t.xy[v_] = {xy_.x + h.xx * way.x + h.xy * way.y, xy_.y + h.xy * way.x + h.yy * way.y};
-        const Point2 slope = {form_.xx * way.x + form_.xy * way.y,
-                              form_.xy * way.x + form_.yy * way.y};
+        const Point2 slope = form_.slope(way);
         const double height = 0.5 * (slope.x * way.x + slope.y * way.y);
         s.point[v_] = point_ + lift(s, v_, way) + height * normal_;
         const TangentMap& b = s.tangent_map[v_];

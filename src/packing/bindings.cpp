@@ -43,7 +43,7 @@ Packing packed(const Background& background, const Box& box, const Place& origin
     Packing made;
     {
         const nb::gil_scoped_release released;
-        made = pack(background, limits, expected, watch_of(calls, watch));
+        made = pack({background}, limits, expected, watch_of(calls, watch));
     }
     calls.finish();
     return made;
@@ -56,7 +56,7 @@ Packing packed_box(const Background& background, const Box& box, std::size_t exp
     Packing made;
     {
         const nb::gil_scoped_release released;
-        made = pack_box(background, limits.low, limits.high, expected, watch_of(calls, watch));
+        made = pack_box({background}, limits.low, limits.high, expected, watch_of(calls, watch));
     }
     calls.finish();
     return made;
@@ -160,6 +160,17 @@ void bind_packing(nb::module_& m) {
     bind_status(m);
     bind_heap(m);
     bind_packing_class(m);
+    m.def(
+        "deviation_along",
+        [](const std::array<double, 3>& quadric, const Place& way, bool is_width) {
+            if (!(norm(Point2{way[0], way[1]}) > 0.0)) throw nb::value_error("way is zero");
+            return deviation_along({quadric[0], quadric[1], quadric[2]}, {way[0], way[1]},
+                                   is_width);
+        },
+        nb::arg("quadric"), nb::arg("way"), nb::arg("is_width") = false,
+        "How far a unit equilateral triangle with an edge along way (x, y) lies from the quadric "
+        "4 (xx x^2 + 2 xy x y + yy y^2), at the middles of its edges and at its centre. is_width: "
+        "the width of the band that it needs.");
     m.def("pack", &packed, nb::arg("background"), nb::arg("box"), nb::arg("origin"),
           nb::arg("expected"), nb::arg("wanted"), nb::arg("distance"),
           nb::arg("watch") = nb::none(),

@@ -38,13 +38,13 @@ Point2 apex_of(SizeTensor h, Point2 d) {
 
 }  // namespace
 
-FittedCircle fit_to_two(const Triangulation& t, const Background& background, FrontEdge edge,
+FittedCircle fit_to_two(const Triangulation& t, const CircleSizes& sizes, FrontEdge edge,
                         std::int64_t& steps) {
     const Point2 a = t.xy[edge.a], b = t.xy[edge.b];
     Point2 p = 0.5 * (a + b) + apex_of(0.5 * (t.size[edge.a] + t.size[edge.b]), b - a);
     FittedCircle best{{p, t.size[edge.a]}, -1.0};
     for (int step = 0; step < FIT_STEPS; ++step) {
-        const SizeTensor h = background.size_at(p.x, p.y);
+        const SizeTensor h = sizes.along(p, b - a);
         ++steps;
         const Distance to_a = distance_from(t, edge.a, p, h), to_b = distance_from(t, edge.b, p, h);
         const double la = to_a.length, lb = to_b.length;
@@ -63,10 +63,11 @@ FittedCircle fit_to_two(const Triangulation& t, const Background& background, Fr
     return best;
 }
 
-TangentCircle fit_to_three(const Triangulation& t, const Background& background, FrontEdge edge,
+TangentCircle fit_to_three(const Triangulation& t, const CircleSizes& sizes, FrontEdge edge,
                            Vertex c, Point2 start, std::int64_t& steps) {
+    const Point2 way = t.xy[edge.b] - t.xy[edge.a];
     Point2 p = start;
-    SizeTensor h = background.size_at(p.x, p.y);
+    SizeTensor h = sizes.along(p, way);
     for (int step = 0; step < FIT_STEPS; ++step) {
         const Distance to_a = distance_from(t, edge.a, p, h), to_b = distance_from(t, edge.b, p, h),
                        to_c = distance_from(t, c, p, h);
@@ -83,7 +84,7 @@ TangentCircle fit_to_three(const Triangulation& t, const Background& background,
             return {{p, h}, 0.0};
         p.x += (m1.y * (lb - la) - m0.y * (lc - la)) / det;
         p.y += (m0.x * (lc - la) - m1.x * (lb - la)) / det;
-        h = background.size_at(p.x, p.y);
+        h = sizes.along(p, way);
         ++steps;
     }
     return {{p, h}, 0.0};

@@ -4,7 +4,7 @@
 // and how well it touches. Nothing is changed but the count of the iterations.
 #pragma once
 
-#include "fields/background.hpp"
+#include "packing/circle_sizes.hpp"
 #include "packing/packing_state.hpp"
 
 namespace surfmesh {
@@ -18,7 +18,7 @@ struct FittedCircle {
 ///
 /// Its size depends on where it ends up: Newton on (l(P, a), l(P, b)) = (1, 1), the size read
 /// again at each step.
-FittedCircle fit_to_two(const Triangulation& t, const Background& background, FrontEdge edge,
+FittedCircle fit_to_two(const Triangulation& t, const CircleSizes& sizes, FrontEdge edge,
                         std::int64_t& steps);
 
 struct TangentCircle {
@@ -30,7 +30,7 @@ struct TangentCircle {
 /// The circle that touches those of a, b and c (2.3.3), sought from ``start``.
 ///
 /// Newton on l(P, a) = l(P, b) = l(P, c) = r.
-TangentCircle fit_to_three(const Triangulation& t, const Background& background, FrontEdge edge,
+TangentCircle fit_to_three(const Triangulation& t, const CircleSizes& sizes, FrontEdge edge,
                            Vertex c, Point2 start, std::int64_t& steps);
 
 struct Relaxation {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "fields/background.hpp"
+#include "packing/circle_sizes.hpp"
 #include "packing/packing_state.hpp"
 
 namespace surfmesh {
@@ -17,7 +17,7 @@ struct StraightLine {
 ///
 /// The first and the last touch none: they lie so far out that no circle that the box needs does.
 /// None where more than ``most`` would be needed, or where sizes are no numbers.
-Array<Circle> circles_along(const Background& background, const StraightLine& line, Point2 low,
+Array<Circle> circles_along(const CircleSizes& sizes, const StraightLine& line, Point2 low,
                             Point2 high, std::size_t most);
 
 }  // namespace surfmesh

@@ -54,16 +54,16 @@ PackingStatus start(Packing& p, const Circle (&circles)[3]) {
 }
 
 /// Three circles of the background's sizes, touching each other about the origin (2.3.1).
-PackingStatus start_at(Packing& p, const Background& background) {
+PackingStatus start_at(Packing& p, const CircleSizes& sizes) {
     const Point2 origin = p.limits.origin;
-    const SizeTensor h = background.size_at(origin.x, origin.y);
+    const SizeTensor h = sizes.at(origin);
     const Point2 turn = p.limits.edge ? unit_step(h, *p.limits.edge) : Point2{1.0, 0.0};
     Circle circles[3];
     for (int k = 0; k < 3; ++k) {
         const Point2 s = START[k];
         const Point2 c{turn.x * s.x - turn.y * s.y, turn.y * s.x + turn.x * s.y};
         const Point2 place{origin.x + h.xx * c.x + h.xy * c.y, origin.y + h.xy * c.x + h.yy * c.y};
-        circles[k] = {place, background.size_at(place.x, place.y)};
+        circles[k] = {place, sizes.along(place, apply(h, turn))};
     }
     return start(p, circles);
 }
@@ -115,7 +115,7 @@ bool is_narrow_corner(const Packing& p, FrontEdge edge) {
 }
 
 /// Place the circle that touches those of a and b, moved to where it touches all near ones.
-Trial place_fitted(Packing& p, const Background& background, FrontEdge edge,
+Trial place_fitted(Packing& p, const CircleSizes& sizes, FrontEdge edge,
                    const FittedCircle& fitted) {
     const Trial opened = open_for(p, edge, fitted.circle);
     if (!opened.possible) return opened;
@@ -124,15 +124,15 @@ Trial place_fitted(Packing& p, const Background& background, FrontEdge edge,
     Circle circle = fitted.circle;
     const Point2 relaxed = circle.centre + step;
     if ((step.x != 0.0 || step.y != 0.0) && is_rim_visible(p.t, relaxed))
-        circle = {relaxed, background.size_at(relaxed.x, relaxed.y)};
+        circle = {relaxed, sizes.along(relaxed, p.t.xy[edge.b] - p.t.xy[edge.a])};
     place(p, edge, circle, fitted.closeness);
     return {true, NIL};
 }
 
 /// Pushing out: the support grows from (a, b) to the circle in the way (2.3.3).
-bool place_tangent(Packing& p, const Background& background, FrontEdge edge, Vertex other,
+bool place_tangent(Packing& p, const CircleSizes& sizes, FrontEdge edge, Vertex other,
                    Point2 start) {
-    const auto [circle, r] = fit_to_three(p.t, background, edge, other, start, p.counts.steps);
+    const auto [circle, r] = fit_to_three(p.t, sizes, edge, other, start, p.counts.steps);
     if (!(TANGENT_FROM < r && r < TANGENT_TO)) return false;
     if (!(orient(p.t.xy[edge.a], p.t.xy[edge.b], circle.centre) < 0.0)) return false;
     if (!open_for(p, edge, circle).possible) return false;
@@ -146,20 +146,20 @@ bool place_tangent(Packing& p, const Background& background, FrontEdge edge, Ver
 /// One step of the front at an edge (2.3). Returns false when the edge has to wait.
 ///
 /// ``forced``: all edges wait; do what is valid although it is not good.
-bool advance(Packing& p, const Background& background, FrontEdge edge, bool forced) {
+bool advance(Packing& p, const CircleSizes& sizes, FrontEdge edge, bool forced) {
     if (is_narrow_corner(p, edge)) return close_corner(p, edge);
-    const FittedCircle fitted = fit_to_two(p.t, background, edge, p.counts.steps);
+    const FittedCircle fitted = fit_to_two(p.t, sizes, edge, p.counts.steps);
     ++p.counts.fits;
-    const auto [placed, other] = place_fitted(p, background, edge, fitted);
+    const auto [placed, other] = place_fitted(p, sizes, edge, fitted);
     if (placed) return true;
     if (other != NIL && other != edge.a && other != edge.b &&
-        place_tangent(p, background, edge, other, fitted.circle.centre))
+        place_tangent(p, sizes, edge, other, fitted.circle.centre))
         return true;
     if (close_corner(p, edge)) return true;
     if (!forced) return false;
     if (outer_apex(p, edge.a) != NIL) return close_first_corner(p, edge.b);
     // on the hull nothing is in the way but circles that are too near: overlap them
-    const FittedCircle again = fit_to_two(p.t, background, edge, p.counts.steps);
+    const FittedCircle again = fit_to_two(p.t, sizes, edge, p.counts.steps);
     if (!open_for(p, edge, again.circle).possible) return false;
     place(p, edge, again.circle, again.closeness);
     return true;
@@ -225,18 +225,18 @@ Packing empty_packing(const PackingLimits& limits, std::size_t expected) {
     return p;
 }
 
-PackingEnd advance_front(Packing& p, const Background& background, const Watch& watch) {
+PackingEnd advance_front(Packing& p, const CircleSizes& sizes, const Watch& watch) {
     return run(
         p, watch, [] { return true; },
-        [&](FrontEdge edge, bool forced) { return advance(p, background, edge, forced); });
+        [&](FrontEdge edge, bool forced) { return advance(p, sizes, edge, forced); });
 }
 
-Packing pack(const Background& background, const PackingLimits& limits, std::size_t expected,
+Packing pack(const CircleSizes& sizes, const PackingLimits& limits, std::size_t expected,
              const Watch& watch) {
     Packing p = empty_packing(limits, expected);
-    p.end = {start_at(p, background), limits.origin};
+    p.end = {start_at(p, sizes), limits.origin};
     if (p.end.status != PackingStatus::finished) return p;
-    p.end = advance_front(p, background, watch);
+    p.end = advance_front(p, sizes, watch);
     return p;
 }
 

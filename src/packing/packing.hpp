@@ -11,7 +11,7 @@
 // not. Hence every triangle is positively oriented and the front is one simple loop, always.
 #pragma once
 
-#include "fields/background.hpp"
+#include "packing/circle_sizes.hpp"
 #include "packing/packing_state.hpp"
 
 namespace surfmesh {
@@ -22,7 +22,7 @@ using Draw = std::function<bool(std::size_t count, Array<double>& drawn)>;
 /// Pack circles of the background's sizes until the front has left the box, or enough are there
 /// (2.4). ``expected``: about how many there will be, so that arrays need not grow. How it ended
 /// is in the packing.
-[[nodiscard]] Packing pack(const Background& background, const PackingLimits& limits,
+[[nodiscard]] Packing pack(const CircleSizes& sizes, const PackingLimits& limits,
                            std::size_t expected, const Watch& watch = {});
 
 /// The same for circles of drawn radii.
@@ -33,7 +33,6 @@ using Draw = std::function<bool(std::size_t count, Array<double>& drawn)>;
 [[nodiscard]] Packing empty_packing(const PackingLimits& limits, std::size_t expected);
 
 /// Advance the front of circles of the background's sizes until there is no more to do.
-[[nodiscard]] PackingEnd advance_front(Packing& p, const Background& background,
-                                       const Watch& watch);
+[[nodiscard]] PackingEnd advance_front(Packing& p, const CircleSizes& sizes, const Watch& watch);
 
 }  // namespace surfmesh

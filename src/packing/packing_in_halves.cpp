@@ -67,28 +67,28 @@ bool are_rows_alike(SizeTensor h, Point2 axis, Point2 edge) {
 
 /// The line along the axis that needs fewer circles in the middle of the box, of those with edges
 /// as they are to be; no circles where there is none.
-LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most,
+LaidLine line_through(const CircleSizes& sizes, Point2 low, Point2 high, std::size_t most,
                       std::optional<Point2> edge) {
     StraightLine line{0.5 * (low + high), {1.0, 0.0}};
-    const SizeTensor h = background.size_at(line.through.x, line.through.y);
+    const SizeTensor h = sizes.at(line.through);
     const auto circles_on = [&](Point2 axis) {
         line.direction = axis;
         if (edge && !are_rows_alike(h, axis, *edge)) return std::size_t{0};
-        return circles_along(background, line, low, high, most).size();
+        return circles_along(sizes, line, low, high, most).size();
     };
     const std::size_t across = circles_on({1.0, 0.0}), upward = circles_on({0.0, 1.0});
     if (across == 0 && upward == 0) return {line, {}};
     if (upward == 0 || (across != 0 && across <= upward)) {
         line.direction = {1.0, 0.0};
-        line.through.y = halving_coordinate(background, Axis::y, low.y, high, BISECTIONS);
+        line.through.y = halving_coordinate(sizes.background, Axis::y, low.y, high, BISECTIONS);
     } else {
-        line.through.x = halving_coordinate(background, Axis::x, low.x, high, BISECTIONS);
+        line.through.x = halving_coordinate(sizes.background, Axis::x, low.x, high, BISECTIONS);
     }
-    return {line, circles_along(background, line, low, high, most)};
+    return {line, circles_along(sizes, line, low, high, most)};
 }
 
 /// The half on the left of the line.
-Packing pack_half(const Background& background, Array<Circle> circles, const StraightLine& line,
+Packing pack_half(const CircleSizes& sizes, Array<Circle> circles, const StraightLine& line,
                   Point2 low, Point2 high, std::size_t room, const Watch& watch) {
     const Point2 left{-line.direction.y, line.direction.x};
     const Point2 first = circles[0].centre;
@@ -103,16 +103,16 @@ Packing pack_half(const Background& background, Array<Circle> circles, const Str
     if (left.y < 0.0) high.y = bound.y;
     Packing p = empty_packing(limits_of(line.through, low, high), room);
     p.narrow = NARROW;
-    const Circle closing{behind, background.size_at(behind.x, behind.y)};
+    const Circle closing{behind, sizes.at(behind)};
     p.end = {start_along(p, {circles.data(), circles.size()}, closing), line.through};
-    if (p.end.status == PackingStatus::finished) p.end = advance_front(p, background, watch);
+    if (p.end.status == PackingStatus::finished) p.end = advance_front(p, sizes, watch);
     p.heap = {};
     p.waiting = {};
     return p;
 }
 
 /// Both halves, side by side. ``counts.halves`` is 0 where they make no whole.
-Packing pack_halves(const Background& background, const LaidLine& laid, Point2 low, Point2 high,
+Packing pack_halves(const CircleSizes& sizes, const LaidLine& laid, Point2 low, Point2 high,
                     std::size_t expected, const Watch& watch) {
     SharedWatch shared(watch);
     Packing halves[2];
@@ -123,7 +123,7 @@ Packing pack_halves(const Background& background, const LaidLine& laid, Point2 l
             std::reverse(circles.begin(), circles.end());
             line.direction = -1.0 * line.direction;
         }
-        halves[n] = pack_half(background, std::move(circles), line, low, high, expected / 2,
+        halves[n] = pack_half(sizes, std::move(circles), line, low, high, expected / 2,
                               shared.of_half(static_cast<int>(n)));
     });
     Packing& whole = halves[0];
@@ -140,20 +140,20 @@ Packing pack_halves(const Background& background, const LaidLine& laid, Point2 l
 
 }  // namespace
 
-Packing pack_box(const Background& background, Point2 low, Point2 high, std::size_t expected,
+Packing pack_box(const CircleSizes& sizes, Point2 low, Point2 high, std::size_t expected,
                  const Watch& watch, std::optional<Point2> edge) {
     if (expected >= CIRCLES_FOR_HALVES) {
         const auto most =
             static_cast<std::size_t>(LONGEST_LINE * std::sqrt(static_cast<double>(expected)));
-        const LaidLine laid = line_through(background, low, high, most, edge);
+        const LaidLine laid = line_through(sizes, low, high, most, edge);
         if (!laid.circles.empty()) {
-            Packing made = pack_halves(background, laid, low, high, expected, watch);
+            Packing made = pack_halves(sizes, laid, low, high, expected, watch);
             if (made.counts.halves == 2 || made.end.status == PackingStatus::stopped) return made;
         }
     }
     PackingLimits limits = limits_of(0.5 * (low + high), low, high);
     limits.edge = edge;
-    return pack(background, limits, expected, watch);
+    return pack(sizes, limits, expected, watch);
 }
 
 }  // namespace surfmesh

@@ -22,7 +22,7 @@ inline constexpr std::size_t CIRCLES_FOR_HALVES = 50'000;
 /// lie then; where there is none the box is packed from its middle.
 /// ``counts.halves`` says whether it was done in halves; then there is no front at the end. A box in
 /// which no line can be laid, or whose halves make no convex whole, is packed from its middle.
-[[nodiscard]] Packing pack_box(const Background& background, Point2 low, Point2 high,
+[[nodiscard]] Packing pack_box(const CircleSizes& sizes, Point2 low, Point2 high,
                                std::size_t expected, const Watch& watch = {},
                                std::optional<Point2> edge = {});
 

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "packing/packing_in_halves.hpp"
+#include "patch/even_use.hpp"
 #include "patch/lattice_edge.hpp"
+#include "patch/node_bends.hpp"
 #include "patch/schedule.hpp"
 
 namespace surfmesh {
@@ -27,6 +29,8 @@ class PatchWork {
         if (!goes_on) made_.end = PatchEnd::cancelled;
         return goes_on;
     }
+    [[nodiscard]] bool follows_directions() const;
+    [[nodiscard]] Array<NodeBend> bends_of_field();
     [[nodiscard]] bool packed();
     [[nodiscard]] bool recovered();
     void optimise_and_map();
@@ -45,14 +49,34 @@ class PatchWork {
     PatchMesh made_;
 };
 
+/// Do sizes grow where the direction of edges allows it?
+bool PatchWork::follows_directions() const {
+    return task_.optimise && uses_evenly(task_.asked, task_.background);
+}
+
+/// None where sizes do not.
+Array<NodeBend> PatchWork::bends_of_field() {
+    if (!follows_directions()) return {};
+    SurfaceReader surface(task_.surface);
+    Array<NodeBend> found =
+        node_bends(surface, task_.chart, task_.background, task_.asked, task_.on_lattice);
+    if (surface.failed()) made_.end = PatchEnd::surface_failed;
+    return found;
+}
+
 bool PatchWork::packed() {
     if (!begins(PatchStage::packing)) return false;
     std::optional<Point2> edge;
-    if (task_.on_lattice)
+    if (task_.on_lattice || follows_directions())
         edge = lattice_edge(task_.surface, task_.chart, 0.5 * (task_.low + task_.high),
                             task_.background.is_anisotropic());
-    Packing packing = pack_box(task_.background, task_.low, task_.high, task_.expected,
-                               hooks_.while_packing, edge);
+    const Array<NodeBend> bend = bends_of_field();
+    if (made_.end != PatchEnd::done) return false;
+    const AskedAccuracy& asked = task_.asked;
+    const CircleSizes sizes{
+        task_.background, {bend.data(), bend.size()}, USED_EVENLY, asked.largest, asked.is_width};
+    Packing packing =
+        pack_box(sizes, task_.low, task_.high, task_.expected, hooks_.while_packing, edge);
     made_.packing = packing.end;
     made_.circles = packing.t.vertices();
     std::swap(plane_, packing.t);

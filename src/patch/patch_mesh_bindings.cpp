@@ -61,13 +61,15 @@ void bind_settings(nb::module_& m) {
                std::optional<double> chord, std::optional<double> angle, double min_size,
                const std::array<double, 4>& box, std::size_t expected, bool optimise, bool first,
                bool with_roots, std::optional<double> slope, bool is_width, bool on_lattice,
-               bool evened, nb::object before_stage, nb::object while_packing,
-               nb::object before_pass) {
+               bool fewest, std::optional<double> largest, nb::object before_stage,
+               nb::object while_packing, nb::object before_pass) {
                 require_box(box);
+                const AskedAccuracy asked{chord,    angle, min_size, slope,
+                                          is_width, false, fewest,   largest.value_or(NO_LARGEST)};
                 const PatchTask task{nb::cast<const Surface&>(surface),
                                      nb::cast<const Chart&>(chart),
                                      nb::cast<const Background&>(background),
-                                     {chord, angle, min_size, slope, is_width, false, evened},
+                                     asked,
                                      {box[0], box[1]},
                                      {box[2], box[3]},
                                      expected,
@@ -87,9 +89,9 @@ void bind_settings(nb::module_& m) {
             nb::arg("chord") = nb::none(), nb::arg("angle") = nb::none(), nb::arg("min_size") = 0.0,
             nb::kw_only(), nb::arg("box"), nb::arg("expected"), nb::arg("optimise") = true,
             nb::arg("first") = true, nb::arg("with_roots") = false, nb::arg("slope") = nb::none(),
-            nb::arg("is_width") = false, nb::arg("on_lattice") = false, nb::arg("evened") = false,
-            nb::arg("before_stage") = nb::none(), nb::arg("while_packing") = nb::none(),
-            nb::arg("before_pass") = nb::none(),
+            nb::arg("is_width") = false, nb::arg("on_lattice") = false, nb::arg("fewest") = false,
+            nb::arg("largest") = nb::none(), nb::arg("before_stage") = nb::none(),
+            nb::arg("while_packing") = nb::none(), nb::arg("before_pass") = nb::none(),
             "chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the "
             "plane that is packed, in which about ``expected`` circles have room. optimise: else "
             "only diagonals are chosen. first: the sizes come from no earlier round. with_roots: "
@@ -97,9 +99,9 @@ void bind_settings(nb::module_& m) {
             "graded "
             "to on the mesh. is_width: chord is that of the whole band that a triangle "
             "needs. on_lattice: sizes are for a lattice laid along principal "
-            "directions. evened: vertices move until triangles deviate alike, and may stay "
-            "large.\nbefore_stage is "
-            "called with each PatchStage, "
+            "directions. fewest: sizes up to ``largest`` follow the direction of edges, and the "
+            "chord "
+            "is used evenly.\nbefore_stage is called with each PatchStage, "
             "while_packing now and then with the number of circles, before_pass before each pass "
             "of smoothing; what they raise stops the work and comes through.");
 }

@@ -1,16 +1,19 @@
 #include "patch/patch_state.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "optimisation/collapse.hpp"
+#include "optimisation/even_deviations.hpp"
 #include "optimisation/scale_gradation.hpp"
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/star_insertion.hpp"
 #include "optimisation/worst_shapes.hpp"
 #include "optimisation/worst_stars.hpp"
+#include "patch/even_use.hpp"
 
 namespace surfmesh {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
 constexpr double LEAST_FOR_DEGREE = 0.4;    // worst alpha that a swap for degrees may leave
 constexpr double LONGEST_UNSMOOTHED = 1.7;  // edge where a vertex goes for the sake of degrees
+constexpr double MOST_GROWN = 1.5;          // what is larger has moved since it was packed
 constexpr int SWEEPS = 8;                   // of swaps over all edges, at most
 constexpr std::size_t VERTICES_TOGETHER = 1 << 12;  // vertices put on the surface together
 
@@ -85,8 +89,20 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       largest_(1e3 * setting.background.box.largest /
                std::max(setting.chart.u.extent, setting.chart.v.extent)) {
     frames.limits = {setting.asked.min_size, most_vertices(t.xy.size(), frames.is_anisotropic)};
+    if (uses_evenly(asked(), background())) keep_packed_sizes();
     set_frames(vertices_from(0, t.vertices()));
     place_nodes();
+}
+
+/// Circles that have grown beyond the sizes of the field are to stay as large.
+void PatchState::keep_packed_sizes() {
+    for_each_block(t.xy.size(), VERTICES_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) {
+            const SizeTensor h = background().size_at(t.xy[v].x, t.xy[v].y);
+            const double grown = determinant(t.size[v]) / determinant(h);
+            if (grown > 1.0) frames.scale[v] = std::min(std::sqrt(grown), MOST_GROWN);
+        }
+    });
 }
 
 PatchStatus PatchState::status() const {
@@ -212,6 +228,15 @@ int PatchState::swap_nearer(std::span<const Triangle> triangles, StarBounds boun
     const SwapsMade made = surfmesh::swap_nearer(t, frames, stars, marks, triangles, bounds);
     note(made);
     return made.count;
+}
+
+void PatchState::even_deviations(double allowed) {
+    moved.clear();
+    if (!stopped() && setting_.before_pass) cancelled_ = !setting_.before_pass();
+    if (stopped()) return;
+    find_stars();
+    surfmesh::even_deviations(t, frames, stars, marks, allowed, moved);
+    renew_frames(moved, kept_drift);
 }
 
 void PatchState::swap(double good) {

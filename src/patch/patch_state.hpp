@@ -106,6 +106,9 @@ class PatchState {
     void bring_nearer(std::span<const Triangle> triangles, StarBounds bounds);
     /// Swap edges of the triangles where that brings the pair nearer to the bounds.
     int swap_nearer(std::span<const Triangle> triangles, StarBounds bounds);
+    /// Move active vertices to where all triangles lie about as far from the surface, ``allowed`` or
+    /// nearer.
+    void even_deviations(double allowed);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
@@ -147,6 +150,7 @@ class PatchState {
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink);
     void place_nodes();
+    void keep_packed_sizes();
     int set_new(Vertex first);
 
     BoundaryNodes nodes_;

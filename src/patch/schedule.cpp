@@ -175,7 +175,7 @@ Unmended optimise(PatchState& state, bool first) {
     if (state.is_anisotropic()) state.still = STILL_SETTLED;
     hold_growth(state);
     reduce_dihedrals(state);
-    Array<Triangle> far = state.asked().evened && state.is_anisotropic()
+    Array<Triangle> far = state.asked().fewest && state.is_anisotropic()
                               ? even_out_deviations(state, first)
                               : approach_surface(state, first);
     if (state.stopped()) return {};

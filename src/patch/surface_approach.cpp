@@ -6,6 +6,7 @@
 #include "optimisation/marked_triangles.hpp"
 #include "optimisation/size_reduction.hpp"
 #include "patch/deviation.hpp"
+#include "patch/even_use.hpp"
 #include "patch/tracked_deviations.hpp"
 
 namespace surfmesh {
@@ -172,6 +173,7 @@ Triangles SurfaceApproach::in_rounds(bool first) {
 
 Triangles approach_surface(PatchState& state, bool first) {
     if (!state.asked().chord) return {};
+    if (uses_evenly(state.asked(), state.background())) return approach_evenly(state, first);
     return SurfaceApproach(state).in_rounds(first);
 }
 

@@ -200,9 +200,9 @@ class FaceMesh:
 class FaceManner:
     """How a face is meshed, whatever its sizes."""
 
-    def __init__(self, chord: float | None, angle: float | None, min_size: float, optimise: bool = True, first: bool = True, is_anisotropic: bool = False, slope: float | None = None, keeps_lowered: bool = False, on_lattice: bool = False, evened: bool = False) -> None:
+    def __init__(self, chord: float | None, angle: float | None, min_size: float, optimise: bool = True, first: bool = True, is_anisotropic: bool = False, slope: float | None = None, keeps_lowered: bool = False, on_lattice: bool = False, fewest: bool = False, largest: float | None = None) -> None:
         """
-        keeps_lowered: nodes of the boundary keep sizes that were lowered there. chord (model units), angle (degrees), min_size: what is asked for, with 0 for no least size. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. is_anisotropic: they depend on the direction. slope: growth per length that such sizes are graded to on the mesh. on_lattice: sizes are for a lattice laid along principal directions. evened: vertices move until triangles deviate alike, and may stay large.
+        keeps_lowered: nodes of the boundary keep sizes that were lowered there. chord (model units), angle (degrees), min_size: what is asked for, with 0 for no least size. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. is_anisotropic: they depend on the direction. slope: growth per length that such sizes are graded to on the mesh. on_lattice: sizes are for a lattice laid along principal directions. fewest: sizes up to ``largest`` follow the direction of edges, and the chord is used evenly.
         """
 
 class InwardFace:

@@ -106,6 +106,11 @@ class Packing:
     def halves(self) -> int:
         """2 where a box was packed in halves, else 0."""
 
+def deviation_along(quadric: Sequence[float], way: Sequence[float], is_width: bool = False) -> float:
+    """
+    How far a unit equilateral triangle with an edge along way (x, y) lies from the quadric 4 (xx x^2 + 2 xy x y + yy y^2), at the middles of its edges and at its centre. is_width: the width of the band that it needs.
+    """
+
 def pack(background: surfmesh._core.fields.Background, box: Sequence[float], origin: Sequence[float], expected: int, wanted: int, distance: float, watch: object | None = None) -> Packing:
     """
     Pack circles of the background's sizes from the origin (x, y) until the front has left the box (x0, y0, x1, y1).

@@ -274,7 +274,8 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
         )
         if made is not None:
             return Estimate.of(made, field.is_anisotropic, least=least)
-    plan = WIDE if field.is_anisotropic else plan_within(LARGEST_FRACTION * asked)
+    by_direction = field.is_anisotropic or field.sizing.fewest
+    plan = WIDE if by_direction else plan_within(LARGEST_FRACTION * asked)
     each = None if plan is None else triangles_per_unit(part, field, loops, plan)
     return Estimate.of([asked * (each or 1.0)], field.is_anisotropic, least=least)
 

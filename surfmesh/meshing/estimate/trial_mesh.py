@@ -46,7 +46,7 @@ BUDGET = 500_000
 
 def is_one_round(sizing: Sizing) -> bool:
     """Do sizes ask for nothing that only a mesh shows, but for folds?"""
-    later = sizing.proof or sizing.is_curved or sizing.volume is not None
+    later = sizing.proof or sizing.is_curved or sizing.volume is not None or sizing.fewest
     return not (later or sizing.is_anisotropic)
 
 

@@ -251,6 +251,20 @@ class Sizing:
         """
         return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
 
+    def uses_evenly(self, is_first: bool) -> bool:
+        """Do triangles use ``chord`` evenly? is_first: no earlier round has asked for smaller
+        sizes. Where one has, and an ``angle`` is to hold, it may be the even use that is in its
+        way; stretched triangles do, see ``is_evened``, in all rounds or in none."""
+        if self.is_anisotropic:
+            return self.is_evened
+        return self.fewest and (is_first or self.angle is None)
+
+    @property
+    def largest_stated(self) -> float | None:
+        """The number that no wanted edge length may exceed; None where none is given."""
+        stated = [size for size in (self.max_size, self.size) if isinstance(size, float)]
+        return min(stated) if stated else None
+
     @property
     def has_law(self) -> bool:
         """Do sizes depend on the place by a law or by sources?"""
