@@ -12,7 +12,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr double HALF_TURN = 3.141592653589793;
+constexpr double POLE_TO_POLE = 3.141592653589793;
 
 /// Newton's steps within an interval that is halved where they leave it, at most.
 constexpr int FRACTION_STEPS = 60;
@@ -20,14 +20,14 @@ constexpr double INVERTED = 1e-15;
 
 /// Poles at both ends.
 ScaledFraction between_poles(double t, double first, double last) {
-    const auto [sine, cosine] = elementary::sincos(HALF_TURN * t);
+    const auto [sine, cosine] = elementary::sincos(POLE_TO_POLE * t);
     const double by_first = 0.5 * (1.0 + cosine), by_last = 0.5 * (1.0 - cosine);
     const double change = elementary::log(last / first);
     const double k = first * elementary::exp(by_last * change);
     const double square = sine * sine + (k * cosine) * (k * cosine);
-    const double turned = -sine * cosine * k / (HALF_TURN * square);  // by the logarithm of k
+    const double turned = -sine * cosine * k / (POLE_TO_POLE * square);  // by the logarithm of k
     const double slope = k * (1.0 - 0.5 * change * cosine * (sine * sine)) / square;
-    return {elementary::atan2(sine, k * cosine) / HALF_TURN, slope, by_first / first * turned,
+    return {elementary::atan2(sine, k * cosine) / POLE_TO_POLE, slope, by_first / first * turned,
             by_last / last * turned};
 }
 
