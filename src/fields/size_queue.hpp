@@ -6,7 +6,7 @@
 //
 // Where cells are so sheared that what is spread comes back to where it came from, nodes are lowered
 // little by little, and each time all that depends on them. So the tolerance of a node that has been
-// taken out often doubles each time, up to what nobody notices.
+// taken out often doubles each time, up to what nobody notices, once most nodes have been.
 #pragma once
 
 #include <algorithm>
@@ -50,6 +50,7 @@ class SizeQueue {
             waits_with_[node] = NOT_WAITING;
             unspread_[node] = 0.0;
             if (taken_[node] < COUNTED) ++taken_[node];
+            ++in_all_;
             return node;
         }
         return NIL;
@@ -59,7 +60,8 @@ class SizeQueue {
     static constexpr double NOT_WAITING = std::numeric_limits<double>::infinity();
 
     // Times that a node is taken out before its tolerance doubles, and what that is at most.
-    static constexpr std::uint8_t OFTEN = 16, COUNTED = 64;
+    static constexpr std::uint8_t OFTEN = 8, COUNTED = 64;
+    static constexpr std::size_t MANY = 1;  // times the number of nodes are taken out before that
     static constexpr double UNNOTICED = 1.28e-4;
 
     struct Entry {
@@ -77,7 +79,8 @@ class SizeQueue {
     };
 
     [[nodiscard]] double tolerance(Node node) const {
-        if (taken_[node] <= OFTEN || tolerance_ >= UNNOTICED) return tolerance_;
+        if (taken_[node] <= OFTEN || tolerance_ >= UNNOTICED || in_all_ < MANY * taken_.size())
+            return tolerance_;
         return std::min(std::ldexp(tolerance_, taken_[node] - OFTEN), UNNOTICED);
     }
 
@@ -96,6 +99,7 @@ class SizeQueue {
     Array<double> waits_with_;   // size with which a node stands in the queue
     Array<double> unspread_;     // relative changes since it was taken out, added up
     Array<std::uint8_t> taken_;  // how often it was taken out, no further than counts
+    std::size_t in_all_ = 0;     // times that any was
     double tolerance_;
 };
 

@@ -12,22 +12,22 @@
 namespace surfmesh {
 namespace {
 
-constexpr double PI = 3.141592653589793;
+constexpr double POLE_TO_POLE = 3.141592653589793;
 
 /// Newton's steps within an interval that is halved where they leave it, at most.
-constexpr int INVERSION_STEPS = 60;
+constexpr int FRACTION_STEPS = 60;
 constexpr double INVERTED = 1e-15;
 
 /// Poles at both ends.
 ScaledFraction between_poles(double t, double first, double last) {
-    const auto [sine, cosine] = elementary::sincos(PI * t);
+    const auto [sine, cosine] = elementary::sincos(POLE_TO_POLE * t);
     const double by_first = 0.5 * (1.0 + cosine), by_last = 0.5 * (1.0 - cosine);
     const double change = elementary::log(last / first);
     const double k = first * elementary::exp(by_last * change);
     const double square = sine * sine + (k * cosine) * (k * cosine);
-    const double turned = -sine * cosine * k / (PI * square);  // by the logarithm of k
+    const double turned = -sine * cosine * k / (POLE_TO_POLE * square);  // by the logarithm of k
     const double slope = k * (1.0 - 0.5 * change * cosine * (sine * sine)) / square;
-    return {elementary::atan2(sine, k * cosine) / PI, slope, by_first / first * turned,
+    return {elementary::atan2(sine, k * cosine) / POLE_TO_POLE, slope, by_first / first * turned,
             by_last / last * turned};
 }
 
@@ -53,7 +53,7 @@ double FractionScaling::inverse(double w) const {
     if (w <= 0.0) return 0.0;
     if (w >= 1.0) return 1.0;
     double low = 0.0, high = 1.0, t = w;
-    for (int step = 0; step < INVERSION_STEPS; ++step) {
+    for (int step = 0; step < FRACTION_STEPS; ++step) {
         const ScaledFraction found = at(t);
         (found.value < w ? low : high) = t;
         double next = t - (found.value - w) / found.by_t;

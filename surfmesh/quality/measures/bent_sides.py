@@ -92,7 +92,7 @@ def _to_uv(chart: Chart, xy: NDArray) -> NDArray[np.float64]:
 
 def _cut_triangle() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Barycentric places (p, 3) and the triangles (PARTS^2, 3) between them."""
-    number = {}
+    number: dict[tuple[int, int], int] = {}
     for i in range(PARTS + 1):
         for j in range(PARTS + 1 - i):
             number[i, j] = len(number)
