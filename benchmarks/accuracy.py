@@ -13,7 +13,8 @@ core's closest point, and how many of them are beyond the bounds. Of CAD files t
 kind of surface in the end: faces, those not proved; triangles, those without bound; share proved.
 
 With --efficiency: triangles of an isotropic mesh and of one stretched up to 100, each over the
-least of any shape and the isotropic over what equilateral ones need; mean alpha; the largest
+least of any shape and the isotropic over what equilateral ones need (--fewest: isotropic ones with
+``Sizing(fewest=True)``); mean alpha; the largest
 distance both ways of random points / chord.
 """
 
@@ -55,9 +56,10 @@ def main() -> None:
     parser.add_argument("--fraction", type=int, default=FRACTIONS[0], help="of CAD files: diag/...")
     parser.add_argument("--proof", action="store_true", help="Sizing(proof=True)")
     parser.add_argument("--efficiency", action="store_true", help="triangles over the least")
+    parser.add_argument("--fewest", action="store_true", help="Sizing(fewest=True), isotropic")
     options = parser.parse_args()
     if options.efficiency:
-        show_efficiency(options.names, options.parts)
+        show_efficiency(options.names, options.parts, options.fewest)
         return
     print(f"{'':24s} {'diag/':>6s} {'triangles':>9s} {'proved':>8s} {'bound':>6s} "
           f"{'tight':>6s} {'cpu':>5s} {'random points':>15s} {'above':>5s}")  # fmt: skip
@@ -126,7 +128,7 @@ def by_kind(mesh: SurfaceMesh, found: Proof) -> dict[str, NDArray[np.int64]]:
     return kinds
 
 
-def show_efficiency(names: list[str] | None, parts: list[str]) -> None:
+def show_efficiency(names: list[str] | None, parts: list[str], fewest: bool) -> None:
     """A line for each surface or model, chord and ratio."""
     print(f"{'':24s} {'diag/':>6s} {'ratio':>5s} {'triangles':>9s} {'/ least':>8s} "
           f"{'/ equil.':>8s} {'alpha':>7s} {'random points':>15s}")  # fmt: skip
@@ -136,8 +138,8 @@ def show_efficiency(names: list[str] | None, parts: list[str]) -> None:
             continue
         diagonal = float(np.linalg.norm(np.ptp(sm.mesh(thing).points, axis=0)))
         for fraction in FRACTIONS:
-            for ratio in (1.0, 100.0):
-                sizing = sm.Sizing(chord=diagonal / fraction, anisotropy=ratio)
+            for ratio in (1.0,) if fewest else (1.0, 100.0):
+                sizing = sm.Sizing(chord=diagonal / fraction, anisotropy=ratio, fewest=fewest)
                 mesh = sm.mesh(thing, sizing, strict=False, jobs=1)
                 found, chord = sm.check(mesh), diagonal / fraction
                 looked = at_random(mesh, np.zeros(len(mesh.triangles)))

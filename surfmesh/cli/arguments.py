@@ -80,7 +80,9 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
             parser.error(f"argument {word[:-3]}: '--' is no value")
     options = parser.parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
-    given = {name: held.pop(name) for name in (*SIZES, "proof", "fewest", "vertices") if name in held}
+    given = {
+        name: held.pop(name) for name in (*SIZES, "proof", "fewest", "vertices") if name in held
+    }
     options.sizing = {name: value for name, value in given.items() if value is not None}
     options.reading = {name: held.pop(name) for name in READING if name in held}
     return options
