@@ -48,8 +48,8 @@ class Sizing:
 
     How near: ``chord``, ``angle``, ``volume``, ``proof``. How long: ``size``, ``min_size``,
     ``max_size``, ``sources``, ``gap``, ``gap_faces``. How they change: ``growth``, ``anisotropy``.
-    How many: ``triangles``, ``fewest``, ``limit``. Of what kind: ``order``, ``vertices``. Each has its own
-    lines where it is defined, and in docs/sizing.md.
+    How many: ``triangles``, ``fewest``, ``limit``. Of what kind: ``order``, ``vertices``. Each has
+    its own lines where it is defined, and in docs/sizing.md.
 
     With nothing given the size follows from the surface: a chord error of a thousandth of its
     diagonal, at most a tenth of the diagonal. Raises ``SizingError`` for one that is not a
