@@ -15,9 +15,9 @@ kind of surface in the end: faces, those not proved; triangles, those without bo
 
 With --efficiency: triangles of an isotropic mesh and of one stretched up to 100, each over the
 least of any shape and the isotropic over what equilateral ones need; mean alpha; the largest
-distance both ways of random points / chord. With --fewest the stretched mesh has as few as keep the
-chord (``Sizing(fewest=True)``), its line comes a second time with growth 4 instead of the default,
-and the isotropic one is left out.
+distance both ways of random points / chord. With --fewest the meshes have as few as keep the chord
+(``Sizing(fewest=True)``), and each line comes a second time with growth 4 instead of the
+default.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -44,7 +44,7 @@ ROUNDING = 1e-9  # of the chord, of the independent look
 
 GROWTH = sm.Sizing().growth
 USUAL = ((1.0, GROWTH), (100.0, GROWTH))  # ratio and growth of the meshes of --efficiency
-FEWEST = ((100.0, GROWTH), (100.0, 4.0))
+FEWEST = ((1.0, GROWTH), (1.0, 4.0), (100.0, GROWTH), (100.0, 4.0))
 
 
 class Looked(NamedTuple):
@@ -62,7 +62,7 @@ def main() -> None:
     parser.add_argument("--fraction", type=int, default=FRACTIONS[0], help="of CAD files: diag/...")
     parser.add_argument("--proof", action="store_true", help="Sizing(proof=True)")
     parser.add_argument("--efficiency", action="store_true", help="triangles over the least")
-    parser.add_argument("--fewest", action="store_true", help="Sizing(fewest=True), stretched")
+    parser.add_argument("--fewest", action="store_true", help="Sizing(fewest=True)")
     options = parser.parse_args()
     if options.efficiency:
         show_efficiency(options.names, options.parts, options.fewest)

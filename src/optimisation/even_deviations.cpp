@@ -15,14 +15,15 @@ namespace {
 constexpr int POWER = 12;
 constexpr double DISTANCE_WEIGHT = 5.0, EDGE_WEIGHT = 0.6;
 
-constexpr double NEAR = 0.3;            // of what is allowed: less counts for nothing
-constexpr double FARTHEST = 1.5;        // and more than this no more
-constexpr double LONGEST_STEP = 0.1;    // in unit lengths: the power lets none be foreseen farther
+constexpr double NEAR = 0.3;      // of what is allowed: less counts for nothing
+constexpr double FARTHEST = 1.5;  // and more than this no more
+constexpr double LONGEST_EVEN_STEP =
+    0.1;                                // in unit lengths: the power lets none be foreseen farther
 constexpr double SMALLEST_STEP = 1e-4;  // shorter ones are not made
 constexpr double STILL_EVEN = 0.01;     // a vertex that moves less leaves its neighbours alone
 constexpr double WORST_SHAPE = 0.7;     // a move may lower the worst alpha, but not below this
-constexpr double HALF_INVERSE_ROOT_3 = 0.28867513459481287;
-constexpr std::size_t MOST_SPOKES = 16;
+constexpr double INVERSE_TWO_ROOT_3 = 0.28867513459481287;
+constexpr std::size_t MOST_EVEN_SPOKES = 16;
 
 /// An edge from the vertex that moves.
 struct Spoke {
@@ -47,12 +48,12 @@ class StarEnergy {
     void add_shape(Point2 p, Point2 q) {
         const double i = 1.0 / (p.x * q.y - p.y * q.x);
         const double total = 2.0 * (dot(p, p) + dot(q, q) - dot(p, q));
-        const double f = HALF_INVERSE_ROOT_3 * total * i;  // 1 / alpha
+        const double f = INVERSE_TWO_ROOT_3 * total * i;  // 1 / alpha
         worst_ = std::max(worst_, f);
         // of f^2 / 2, as smoothing has it, and of its square
         const double tx = -2.0 * (p.x + q.x), ty = -2.0 * (p.y + q.y);
         const double rx = (p.y - q.y) * i, ry = (q.x - p.x) * i;
-        const double c = HALF_INVERSE_ROOT_3 * i * f, both = 2.0 * total, square = f * f;
+        const double c = INVERSE_TWO_ROOT_3 * i * f, both = 2.0 * total, square = f * f;
         const Point2 g{c * (tx - total * rx), c * (ty - total * ry)};
         add_gradient(square * g);
         const double k = square * c;
@@ -88,7 +89,7 @@ class StarEnergy {
         if (!(determinant(hessian_) > 0.0)) return {0.0, 0.0};
         const Point2 found = solve(hessian_, -1.0 * gradient_);
         const double length = norm(found);
-        return length > LONGEST_STEP ? LONGEST_STEP / length * found : found;
+        return length > LONGEST_EVEN_STEP ? LONGEST_EVEN_STEP / length * found : found;
     }
     [[nodiscard]] double worst_shape() const { return 1.0 / worst_; }
 
@@ -112,7 +113,7 @@ struct EveningPass {
         const HalfEdge start = stars.start[v];
         if (marks.active[v] == 0 || stars.frozen[v] != 0 || start == NIL) return;
         marks.active[v] = 0;
-        std::array<Spoke, MOST_SPOKES + 1> spokes;
+        std::array<Spoke, MOST_EVEN_SPOKES + 1> spokes;
         const std::size_t count = find_spokes(v, start, spokes);
         if (count == 0) return;
         QuadricFit fit;
@@ -142,13 +143,13 @@ struct EveningPass {
     /// The edges from v, the first once more at the end; none where v has no tangent plane, coincides
     /// with others or has more edges than are looked at.
     std::size_t find_spokes(Vertex v, HalfEdge start,
-                            std::array<Spoke, MOST_SPOKES + 1>& to) const {
+                            std::array<Spoke, MOST_EVEN_SPOKES + 1>& to) const {
         if (is_zero(s.normal[v])) return 0;
         std::size_t count = 0;
         HalfEdge e = start;
         do {
             const Vertex p = t.tri[next_half_edge(e)];
-            if (count == MOST_SPOKES || coincide(s, v, p)) return 0;
+            if (count == MOST_EVEN_SPOKES || coincide(s, v, p)) return 0;
             const double here = rise(s, v, p), there = rise(s, p, v);
             to[count++] = {p, chord(s, v, p), here + there, std::abs(here - there)};
             e = rotate_ccw(t, e);

@@ -13,7 +13,7 @@ namespace {
 constexpr int PASSES = 20, PASSES_AFTER_INSERTION = 4;
 // Where the surface turns over, even moves bring others far again: the last rounds do without.
 constexpr int ROUNDS = 12, EVEN_ROUNDS = 7, ROUNDS_AT_LAST = 8;
-constexpr int MOVES = 3;
+constexpr int RAISING_ROUNDS = 3;
 
 // Vertices are inserted at this part of the triangles that are too far in each round, and where they
 // are that much too far.
@@ -85,7 +85,7 @@ class EvenUse {
 
     /// Move corners of triangles of bad shape, be they ``far`` or not; returns those left that are far.
     Triangles raise_bad(Triangles far) {
-        for (int round = 0; round < MOVES && !state_.stopped(); ++round) {
+        for (int round = 0; round < RAISING_ROUNDS && !state_.stopped(); ++round) {
             const Triangles bad = triangles_below(state_.t, state_.frames, BAD_SHAPE_AT_LAST);
             if (bad.empty()) break;
             far = moved_nearer(std::move(far), bad);

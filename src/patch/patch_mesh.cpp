@@ -1,5 +1,6 @@
 #include "patch/patch_mesh.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "packing/packing_in_halves.hpp"
@@ -46,6 +47,7 @@ class PatchWork {
     const PatchBoundary& boundary_;
     const PatchHooks& hooks_;
     Triangulation plane_;
+    bool has_grown_ = false;
     PatchMesh made_;
 };
 
@@ -61,7 +63,9 @@ Array<NodeBend> PatchWork::bends_of_field() {
     Array<NodeBend> found =
         node_bends(surface, task_.chart, task_.background, task_.asked, task_.on_lattice);
     if (surface.failed()) made_.end = PatchEnd::surface_failed;
-    return found;
+    const bool any = std::any_of(found.begin(), found.end(),
+                                 [](const NodeBend& bend) { return bend.decided > 0.0; });
+    return any ? found : Array<NodeBend>{};
 }
 
 bool PatchWork::packed() {
@@ -71,6 +75,7 @@ bool PatchWork::packed() {
         edge = lattice_edge(task_.surface, task_.chart, 0.5 * (task_.low + task_.high),
                             task_.background.is_anisotropic());
     const Array<NodeBend> bend = bends_of_field();
+    has_grown_ = !bend.empty();
     if (made_.end != PatchEnd::done) return false;
     const AskedAccuracy& asked = task_.asked;
     const CircleSizes sizes{
@@ -105,7 +110,7 @@ void PatchWork::optimise_and_map() {
     if (task_.optimise && !begins(PatchStage::optimisation)) return;
     PatchState state(made_.domain.t, nodes_in_use(),
                      {task_.surface, task_.chart, task_.background, task_.asked, hooks_.before_pass,
-                      task_.on_lattice});
+                      task_.on_lattice, has_grown_});
     if (task_.optimise) {
         const Unmended left = optimise(state, task_.first);
         const Array<std::uint8_t> off = off_surface(state);

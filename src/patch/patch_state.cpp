@@ -13,16 +13,16 @@
 #include "optimisation/star_insertion.hpp"
 #include "optimisation/worst_shapes.hpp"
 #include "optimisation/worst_stars.hpp"
-#include "patch/even_use.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
-constexpr double LEAST_FOR_DEGREE = 0.4;    // worst alpha that a swap for degrees may leave
-constexpr double LONGEST_UNSMOOTHED = 1.7;  // edge where a vertex goes for the sake of degrees
-constexpr double MOST_GROWN = 1.5;          // what is larger has moved since it was packed
-constexpr int SWEEPS = 8;                   // of swaps over all edges, at most
+constexpr double LEAST_FOR_DEGREE = 0.4;      // worst alpha that a swap for degrees may leave
+constexpr double LONGEST_UNSMOOTHED = 1.7;    // edge where a vertex goes for the sake of degrees
+constexpr double CLEARLY_GROWN = 1.0 + 1e-9;  // not by rounding alone
+constexpr double MOST_GROWN = 1.5;            // what is larger has moved since it was packed
+constexpr int SWEEPS = 8;                     // of swaps over all edges, at most
 constexpr std::size_t VERTICES_TOGETHER = 1 << 12;  // vertices put on the surface together
 
 // Of the domain: how far from a kink its two sides are looked at, and in which directions.
@@ -89,7 +89,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       largest_(1e3 * setting.background.box.largest /
                std::max(setting.chart.u.extent, setting.chart.v.extent)) {
     frames.limits = {setting.asked.min_size, most_vertices(t.xy.size(), frames.is_anisotropic)};
-    if (uses_evenly(asked(), background())) keep_packed_sizes();
+    if (setting_.has_grown) keep_packed_sizes();
     set_frames(vertices_from(0, t.vertices()));
     place_nodes();
 }
@@ -100,7 +100,7 @@ void PatchState::keep_packed_sizes() {
         for (std::size_t v = first; v < last; ++v) {
             const SizeTensor h = background().size_at(t.xy[v].x, t.xy[v].y);
             const double grown = determinant(t.size[v]) / determinant(h);
-            if (grown > 1.0) frames.scale[v] = std::min(std::sqrt(grown), MOST_GROWN);
+            if (grown > CLEARLY_GROWN) frames.scale[v] = std::min(std::sqrt(grown), MOST_GROWN);
         }
     });
 }

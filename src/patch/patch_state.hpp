@@ -48,6 +48,7 @@ struct PatchSetting {
     AskedAccuracy asked;
     std::function<bool()> before_pass;  // of smoothing: goes on if it says so; may be empty
     bool on_lattice = false;            // triangles are laid along principal directions
+    bool has_grown = false;             // circles are larger than the field has them
 };
 
 enum class [[nodiscard]] PatchStatus {
