@@ -20,9 +20,10 @@ constexpr int SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
 
 constexpr double LEAST_SHAPE = 0.7;  // alpha in the metric that moves keep to, where they can
 
-// At all triangles, in the end; of coarse ones places between the few samples are a fifth farther.
+// At all triangles, in the end: places between the few samples of long ones, across a direction that
+// turns, may be twice as far.
 constexpr int LAST_LOOKS = 3;
-constexpr double CLOSER = 0.85;
+constexpr double CLOSER = 0.5;
 
 // Where more of the triangles are far in the first round a finer field needs fewer than splits.
 constexpr double MANY_FAR = 0.3;
