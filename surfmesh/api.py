@@ -223,10 +223,10 @@ def estimate(
 
     Sizes are given as to ``mesh``, by name too: ``estimate(part, chord=0.1)``.
     Size fields are made and measured, of models with many faces those of some faces: of alike ones
-    one, of many that differ a sample, of those with few triangles none (``by_face`` is rougher there
-    than the total). Of large meshes a few patches are made to learn from, of small ones all: up to
-    600 triangles, or some thousand where sizes are coarse for the curvature or faces thin. Raises
-    what ``mesh`` raises for sizes that cannot be met, but for their limit.
+    one, of many that differ a sample, of those with few triangles none (``by_face`` is rougher
+    there than the total). Of large meshes a few patches are made to learn from, of small ones all:
+    up to 600 triangles, or some thousand where sizes are coarse for the curvature or faces thin.
+    Raises what ``mesh`` raises for sizes that cannot be met, but for their limit.
     """
     model = model_or_surface(surface)
     sizing = _with_sizes(model, sizes_by_name(sizing, sizes))
