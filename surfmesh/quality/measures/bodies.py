@@ -181,7 +181,8 @@ def _beside_rims(
     faces = np.sort(mesh.face_ids[pairs], axis=1) @ width
     along = np.isin(faces, np.array(list(edge_to_edge), np.int64) @ width)
     sheets = (solids_beside(mesh)[pairs] < 0).all(axis=(1, 2))
-    return along & sheets & at_rim[mesh.triangles[pairs]].any(axis=2).all(axis=1)
+    corners = at_rim[mesh.triangles[pairs]].sum(axis=2)  # (k, 2) that lie at a rim
+    return along & sheets & (corners.min(axis=1) > 0)
 
 
 def _body_numbers(mesh: SurfaceMesh, count: int) -> NDArray[np.int64]:
