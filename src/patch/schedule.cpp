@@ -6,7 +6,7 @@
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
-#include "patch/even_deviations.hpp"
+#include "patch/stretched_even_use.hpp"
 #include "patch/surface_approach.hpp"
 
 namespace surfmesh {

@@ -100,7 +100,7 @@ struct PrincipalSizes {
 /// as smooth as that at umbilics.
 PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
 
-/// The same of triangles whose corners move until they lie nearer (src/patch/even_deviations.hpp).
+/// The same of triangles whose corners move until they lie nearer (src/patch/stretched_even_use.hpp).
 PrincipalSizes evened_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
 
 /// The same on saddles, of triangles that form a lattice laid as ``lattice_edge`` (src/patch) has it.

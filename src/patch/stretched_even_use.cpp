@@ -1,4 +1,4 @@
-#include "patch/even_deviations.hpp"
+#include "patch/stretched_even_use.hpp"
 
 #include <cmath>
 #include <utility>
