@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "optimisation/marked_triangles.hpp"
-#include "patch/angle_reduction.hpp"
 #include "patch/tracked_deviations.hpp"
 
 namespace surfmesh {
@@ -92,6 +91,7 @@ class EvenUse {
         }
         return far;
     }
+
     /// Move corners of some triangles, or of those that are too far, while that brings their stars
     /// nearer, or to better shapes; returns those left that are too far.
     Triangles moved_nearer(Triangles far, const Triangles& which) {
@@ -138,7 +138,6 @@ Triangles approach_evenly(PatchState& state, bool first) {
     const double chord = *state.asked().chord;
     if (TrackedDeviations(state, chord).suspects().empty()) return {};
     even_all(state, AIMED_AT * chord);
-    reduce_dihedrals(state);  // moves that even out distances know nothing of angles
     return EvenUse(state).in_rounds(first);
 }
 

@@ -1,9 +1,9 @@
 """The chart of a surface, the scaled plane (x, y): u and v stretched so that speeds are about one.
 
-x is a function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v, but for an axis
-that runs to elongated poles, which is scaled. The core makes it (src/surfaces/chart_making.hpp) and
-evaluates it; here is what is known of a surface before it is sampled, and the way to bent
-parameters, for which SciPy inverts the incomplete beta function.
+x is a function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v, but for an
+axis that runs to elongated poles, which is scaled. The core makes it, see
+src/surfaces/chart_making.hpp, and evaluates it; here is what is known of a surface before it is
+sampled, and the way to bent parameters, for which SciPy inverts the incomplete beta function.
 """
 
 from __future__ import annotations

@@ -125,7 +125,7 @@ def _meshed(
         box=room.box, expected=room.expected, optimise=optimise, first=first,
         with_roots=sizing.is_anisotropic, slope=sizing.gradient, is_width=sizing.is_balanced,
         on_lattice=field.law.is_on_lattice, largest=sizing.largest_stated,
-        fewest=sizing.uses_evenly(is_first=first and field.law.limits is None),
+        fewest=sizing.uses_evenly,
         before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),
         while_packing=None if watch is None else room.told(watch),
         before_pass=None if watch is None else watch.pulse,

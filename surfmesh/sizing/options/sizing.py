@@ -101,8 +101,8 @@ class Sizing:
 
     fewest: bool = False
     """As few triangles as keep ``chord``, for more time a triangle and a little less shape: sizes
-    follow the direction of each triangle's edges, and with ``anisotropy`` vertices move to where
-    triangles may stay large. See docs/sizing.md."""
+    follow the direction of each triangle's edges, and vertices move to where triangles may stay
+    large. Not with an ``angle``, which these moves would undo. See docs/sizing.md."""
 
     order: int = 1
     """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
@@ -220,11 +220,16 @@ class Sizing:
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
 
     @property
+    def uses_evenly(self) -> bool:
+        """Do triangles share ``chord`` evenly? Not where they keep an ``angle`` too, nor stretched
+        ones that leave the surface: both would be undone."""
+        is_undone = self.angle is not None or (self.is_anisotropic and self.is_balanced)
+        return self.fewest and self.chord is not None and not is_undone
+
+    @property
     def is_evened(self) -> bool:
-        """Do vertices move until stretched triangles deviate alike? Not where these keep an
-        ``angle`` too, or leave the surface: both would be undone."""
-        on_surface = self.angle is None and not self.is_balanced
-        return self.fewest and self.is_anisotropic and self.chord is not None and on_surface
+        """Do stretched triangles?"""
+        return self.uses_evenly and self.is_anisotropic
 
     @property
     def is_curved(self) -> bool:
@@ -250,14 +255,6 @@ class Sizing:
         Two touching circles of sizes h and g h lie (1 + g) h / 2 apart.
         """
         return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
-
-    def uses_evenly(self, is_first: bool) -> bool:
-        """Do triangles use ``chord`` evenly? is_first: no earlier round has asked for smaller
-        sizes. Where one has, and an ``angle`` is to hold, it may be the even use that is in its
-        way; stretched triangles do, see ``is_evened``, in all rounds or in none."""
-        if self.is_anisotropic:
-            return self.is_evened
-        return self.fewest and (is_first or self.angle is None)
 
     @property
     def largest_stated(self) -> float | None:
