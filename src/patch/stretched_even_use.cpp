@@ -18,7 +18,8 @@ constexpr double ROUGHLY = 1.15;  // near it triangles have all samples then
 constexpr double FAR = 0.97, NEAR = 0.93;
 constexpr int SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
 
-constexpr double LEAST_SHAPE = 0.7;  // alpha in the metric that moves keep to, where they can
+constexpr double LEAST_EVENED_SHAPE =
+    0.7;  // alpha in the metric that moves keep to, where they can
 
 // At all triangles, in the end: places between the few samples of long ones, across a direction that
 // turns, may be twice as far.
@@ -26,7 +27,7 @@ constexpr int LAST_LOOKS = 3;
 constexpr double CLOSER = 0.5;
 
 // Where more of the triangles are far in the first round a finer field needs fewer than splits.
-constexpr double MANY_FAR = 0.3;
+constexpr double MANY_FAR_EVENED = 0.3;
 
 using Triangles = Array<Triangle>;
 
@@ -52,7 +53,7 @@ class EvenDeviations {
 /// Swap edges and move corners of the triangles ``far`` until those around deviate by no more than
 /// ``limit``, or for some rounds; returns those left. aim: by the estimate; both of the chord.
 Triangles EvenDeviations::bring_nearer(Triangles far, int rounds, double aim, double limit) {
-    const StarBounds bounds{aim * chord_, LEAST_SHAPE};
+    const StarBounds bounds{aim * chord_, LEAST_EVENED_SHAPE};
     for (int round = 0; round < rounds && !far.empty() && !state_.stopped(); ++round) {
         tracked_.start_round();
         const int swapped = state_.swap_nearer(far, bounds);
@@ -105,7 +106,8 @@ Triangles EvenDeviations::in_rounds(bool first) {
     uneven = bring_nearer(std::move(uneven), EVENING_ROUNDS, EVEN, EVENED);
     tracked_.look_near(1.0);
     Triangles far = tracked_.farther(uneven, FAR * chord_);
-    if (first && static_cast<double>(far.size()) > MANY_FAR * state_.t.triangles()) return far;
+    if (first && static_cast<double>(far.size()) > MANY_FAR_EVENED * state_.t.triangles())
+        return far;
     far = split_far(std::move(far));
     tracked_.look_near(CLOSER);
     for (int look = 0; look < LAST_LOOKS && !state_.stopped(); ++look) {

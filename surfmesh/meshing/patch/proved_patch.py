@@ -28,8 +28,12 @@ FINER = 0.9
 FINEST, COARSEST = 0.5, 0.8
 """Of the sizes, in one round."""
 
-PASSES = 6
-"""How often triangles are cut: bounds fall to a half or less each time."""
+PASSES, MOST_PASSES = 6, 24
+"""How often triangles are cut: bounds fall to a half or less each time; and where hardly any are
+left, whose cuts come to an end sooner than another mesh that has others."""
+
+HARDLY_ANY = 2e-3
+"""Part of all triangles."""
 
 FEW, SMALL_FRACTION = 4, 0.02
 """Triangles, and their part of all, up to which they are cut: that gives two more for each."""
@@ -75,7 +79,7 @@ def cut_until_proved(
     """
     if not sizing.proof or sizing.chord is None or not len(patch.triangles):
         return patch, None
-    for passes in range(PASSES + 1):
+    for passes in range(MOST_PASSES + 1):
         face = _face(patch)
         found = proved_distances(surface, face, np.full(len(face.corners), sizing.chord))
         if found is None:
@@ -86,7 +90,9 @@ def cut_until_proved(
         # where much is not bounded, as at poles of offsets, smaller triangles would be no better
         left = left if np.count_nonzero(~is_bounded) <= most else left[is_bounded[left]]
         cut = None
-        if 0 < len(left) <= most and passes < PASSES:
+        hardly_any = max(FEW, HARDLY_ANY * len(found.bound))
+        may_cut = passes < PASSES or (passes < MOST_PASSES and len(left) <= hardly_any)
+        if 0 < len(left) <= most and may_cut:
             worst_first = left[np.argsort(-found.bound[left], kind="stable")]
             cut = _farthest_sides(surface, patch, face, worst_first, sizing.min_size or 0.0)
         if cut is None:

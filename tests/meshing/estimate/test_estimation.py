@@ -217,7 +217,7 @@ def test_faces_with_few_triangles_are_not_looked_at_however_they_are_curved(monk
         shape = cq.Workplane().box(60, 40, 2).union(
             cq.Workplane().sphere(radius).translate((0, 0, 10 + radius))
         )  # fmt: skip
-        before = model_mesh._Unmeshed(sm.from_cadquery(shape), 0.8, few=True)
+        before = UnmeshedModel(sm.from_cadquery(shape), 0.8, few=True)
         counts = before.counts(model_estimate.FaceFields())
         return counts, len(made)
 
