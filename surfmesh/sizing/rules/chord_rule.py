@@ -70,10 +70,12 @@ class ChordRule(CurvatureRule):
         self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
     ) -> np.ndarray:
         factor = self._factor(k1, k2, ratio)
-        of_principal = principal_chord_sizes
-        if self.is_evened:
-            of_principal = saddle_lattice_sizes if self.on_lattice else evened_chord_sizes
-        both = of_principal(k1, k2, self.chord, ratio)
+        if not self.is_evened:
+            both = principal_chord_sizes(k1, k2, self.chord, ratio)
+        elif self.on_lattice:
+            both = saddle_lattice_sizes(k1, k2, self.chord, ratio)
+        else:
+            both = evened_chord_sizes(k1, k2, self.chord, ratio)
         return np.stack([factor * size for size in both], axis=1)
 
     def _factor(
