@@ -16,7 +16,7 @@ constexpr double ROUGHLY = 1.15;  // near it triangles have all samples then
 // The same where they are too far: samples of the report may be a little farther than those here,
 // and sides and centroid, which the estimate knows, up to 4.2 % nearer than places between them.
 constexpr double FAR = 0.97, NEAR = 0.93;
-constexpr int SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
+constexpr int EVENED_SPLIT_ROUNDS = 10, MOVES_AFTER_SPLIT = 3;
 
 constexpr double LEAST_EVENED_SHAPE =
     0.7;  // alpha in the metric that moves keep to, where they can
@@ -81,7 +81,7 @@ bool EvenDeviations::has_far_side(Triangle k) const {
 /// Split edges of the farthest of the triangles ``far``, and bring those around nearer, by turns;
 /// returns those left.
 Triangles EvenDeviations::split_far(Triangles far) {
-    for (int round = 0; round < SPLIT_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
+    for (int round = 0; round < EVENED_SPLIT_ROUNDS && !far.empty() && !state_.stopped(); ++round) {
         Triangles split;
         for (const Triangle k : tracked_.farthest(far, FAR * chord_))
             if (!has_far_side(k)) split.push_back(k);

@@ -78,6 +78,9 @@ triangle of the mesh if that is more: about a singular place each round needs mo
 FINER = 0.6
 """Factor on the sizes where sides cannot be joined."""
 
+EVEN_ROUNDS = 2
+"""In which triangles use the chord evenly, see ``Sizing.fewest``."""
+
 
 def mesh_parametric(
     surface: Surface, sizing: Sizing, optimise: bool = True, progress: Progress | None = None
@@ -142,7 +145,7 @@ class _Rounds:
         self.optimise, self.watch = optimise, watch
         self.chart, self.kinks = Chart.of(surface), kink_lines(surface)
         self.not_followed: list[str] = []
-        self._stagnation, self._cells = StagnationCheck(), 0
+        self._stagnation, self._cells, self._count = StagnationCheck(), 0, 0
         self._latest: tuple[SurfaceMesh, np.ndarray] | None = None
 
     def mesh(self, limits: Mapping[int, SizeLimits]) -> SurfaceMesh:
@@ -165,6 +168,7 @@ class _Rounds:
         self, limits: Mapping[int, SizeLimits]
     ) -> tuple[tuple[SurfaceMesh, np.ndarray], dict[int, SizeLimits]]:
         """The mesh and its points where sides are not joined; the smaller sizes it needs."""
+        self._count += 1
         with self.watch.stage("sizing"):
             try:
                 rims, known = Rims(self.surface, self.sides), limits.get(0)
@@ -192,9 +196,18 @@ class _Rounds:
         self._cells += cells
         self._stagnation.record(len(refinement.sizes), len(mesh.triangles))
         too_many = self._cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles))
-        if too_many or self._stagnation.is_unchanged:  # the report says what is left
+        may_stop = self.sizing.is_anisotropic or not self._uses_evenly
+        if may_stop and (too_many or self._stagnation.is_unchanged):  # the report says what is left
             return self._latest, {}
         return self._latest, {0: refinement}
+
+    @property
+    def _uses_evenly(self) -> bool:
+        """Even use of the chord undoes smaller sizes: where two rounds do not suffice, the others
+        are as without. Stretched triangles are split where they are too far, in all rounds."""
+        return self.sizing.uses_evenly and (
+            self.sizing.is_anisotropic or self._count <= EVEN_ROUNDS
+        )
 
     def _meshed(
         self, field: SizeField, known: Mapping[int, SizeLimits]
@@ -204,8 +217,9 @@ class _Rounds:
         with self.watch.stage("sizing"):
             loops = self._boundary(field)
         patch = mesh_patch(
-            surface, self.chart, field, loops, optimise=self.optimise, watch=self.watch
-        )
+            surface, self.chart, field, loops,
+            optimise=self.optimise, evenly=self._uses_evenly, watch=self.watch,
+        )  # fmt: skip
         made, unproved = self._proved(patch)
         mesh = SurfaceMesh(
             points=made.points,

@@ -9,6 +9,7 @@ import pytest
 SOURCES = Path(__file__).parents[2] / "src"
 ROOMS = sorted({path.parent for path in SOURCES.glob("*/*.cpp")})
 CONSTANT = re.compile(r"^(?:static )?constexpr (?:[\w:<>, ]+?) (\w+)(?:\[\w*\])? ?[={]")
+OTHERS = re.compile(r"(?:, |^\s+)([A-Z][A-Z0-9_]+) ?[={]")  # of the same statement
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+).*\{")
 FUNCTION = re.compile(r"^(?=\w)(?!namespace|template)[\w:<>&*, ]+ (\w+\([^;)]*)[^;]*\{")
 ALIAS = re.compile(r"^using (\w+) = (.*);")  # twice the same is allowed
@@ -20,13 +21,17 @@ def local_names(path: Path) -> dict[str, str]:
 
     Each with what may not differ or, where nothing may stand twice, with the file.
     """
-    names, hidden = {}, False
+    names, hidden, in_constants = {}, False, False
     for line in path.read_text(encoding="utf-8").splitlines():
         if re.match(r"namespace \{", line):
             hidden = True
         elif re.match(r"\}  // namespace$", line):
             hidden = False
         elif hidden:
+            in_constants = in_constants or CONSTANT.match(line) is not None
+            if in_constants:
+                names.update(dict.fromkeys(OTHERS.findall(line), path.name))
+                in_constants = ";" not in line
             if found := CONSTANT.match(line) or TYPE.match(line):
                 names[found.group(1)] = path.name
             elif found := ALIAS.match(line):

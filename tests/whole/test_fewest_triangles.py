@@ -50,6 +50,12 @@ def test_without_a_curve_nothing_changes() -> None:
     assert plain.points.tobytes() == fewest.points.tobytes()
 
 
+def test_the_chord_is_kept_where_even_use_does_not_suffice() -> None:
+    plain, fewest = meshes("wavy", chord=0.5, growth=4.0)
+    assert plain.report.clean and fewest.report.clean
+    assert len(fewest.triangles) < 1.03 * len(plain.triangles)
+
+
 def test_an_angle_is_kept_as_ever() -> None:
     plain, fewest = meshes("torus", chord=0.006, angle=8.0)
     assert plain.points.tobytes() == fewest.points.tobytes()

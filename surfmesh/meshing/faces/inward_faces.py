@@ -115,6 +115,7 @@ def face_manner(sizing: Sizing, optimise: bool, is_first: bool, on_lattice: bool
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         optimise, is_first, sizing.is_anisotropic, sizing.gradient,
         keeps_lowered=sizing.is_balanced, on_lattice=on_lattice,
-        fewest=sizing.uses_evenly,
+
+        fewest=sizing.uses_evenly and (is_first or sizing.is_anisotropic),
         largest=sizing.largest_stated,
     )  # fmt: skip

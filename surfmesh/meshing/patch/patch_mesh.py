@@ -90,17 +90,19 @@ def mesh_patch(
     *,
     optimise: bool = True,
     first: bool = True,
+    evenly: bool = True,
     box: np.ndarray | None = None,
     watch: Stopwatch | None = None,
 ) -> PatchMesh:
     """Mesh the inside of a boundary, with sizes of one field in the plane of ``chart``.
 
-    first: the sizes come from no earlier round. box: (4,) in the plane, what is packed where it is
+    first: the sizes come from no earlier round. evenly: the chord is used so where ``field.sizing``
+    asks for it. box: (4,) in the plane, what is packed where it is
     not the whole domain. watch: is told of the stages. Raises ``SurfaceError``, ``DomainError`` or
     ``MeshingError`` with the reason.
     """
     with nullcontext() if watch is None else watch.stages() as begin:
-        found = _meshed(surface, chart, field, boundary, optimise, first, box, watch, begin)
+        found = _meshed(surface, chart, field, boundary, optimise, first, evenly, box, watch, begin)
     mapped = found.mapped
     space = SurfaceTriangles(
         mapped.points, mapped.triangles, mapped.uv_triangles, mapped.vertex, mapped.non_manifold
@@ -114,7 +116,7 @@ def mesh_patch(
 
 def _meshed(
     surface: Surface, chart: Chart, field: SizeField, boundary: BoundaryLoops | PlanarSegments,
-    optimise: bool, first: bool, box: np.ndarray | None, watch: Stopwatch | None,
+    optimise: bool, first: bool, evenly: bool, box: np.ndarray | None, watch: Stopwatch | None,
     begin: Callable[[str], None] | None,
 ) -> core.PatchMesh:  # fmt: skip
     """What the core makes of a patch; what failed is raised."""
@@ -125,7 +127,7 @@ def _meshed(
         box=room.box, expected=room.expected, optimise=optimise, first=first,
         with_roots=sizing.is_anisotropic, slope=sizing.gradient, is_width=sizing.is_balanced,
         on_lattice=field.law.is_on_lattice, largest=sizing.largest_stated,
-        fewest=sizing.uses_evenly,
+        fewest=evenly and sizing.uses_evenly,
         before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),
         while_packing=None if watch is None else room.told(watch),
         before_pass=None if watch is None else watch.pulse,
