@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "surfaces/fundamental_forms.hpp"
 
@@ -31,6 +32,15 @@ constexpr std::array<Point2, 5> BESIDE = {
 /// A number of a place and of the four beside it.
 template <class T>
 using Around = std::array<T, BESIDE.size()>;
+
+/// A value of each row at a place and beside it.
+template <typename ValueOf>
+auto around(std::size_t place, const ValueOf& value_of) {
+    Around<std::decay_t<decltype(value_of(place))>> found;
+    for (std::size_t beside = 0; beside < found.size(); ++beside)
+        found[beside] = value_of(place * BESIDE.size() + beside);
+    return found;
+}
 
 /// Derivatives of a field in fractions of the domain, along a step.
 double change(const Around<double>& field, Point2 step) {
@@ -157,15 +167,10 @@ bool keeps_stretched_lattice(SurfaceReader& surface, Point2 extent, const SizeRu
     const double farthest = 0.5 * norm(extent);
     const Point2 wide = box.high - box.low;
     for (std::size_t place = 0; place < PLACES; ++place) {
-        Around<Point2> d1, d2;
-        Around<double> h1, h2;
-        for (std::size_t beside = 0; beside < BESIDE.size(); ++beside) {
-            const std::size_t row = place * BESIDE.size() + beside;
-            d1[beside] = at[row].d1;
-            d2[beside] = at[row].d2;
-            h1[beside] = size[row].first;
-            h2[beside] = size[row].second;
-        }
+        const auto d1 = around(place, [&](std::size_t row) { return at[row].d1; });
+        const auto d2 = around(place, [&](std::size_t row) { return at[row].d2; });
+        const auto h1 = around(place, [&](std::size_t row) { return size[row].first; });
+        const auto h2 = around(place, [&](std::size_t row) { return size[row].second; });
         const auto [turn, growth] =
             stretched_rates_at(h1, h2, steps_along(d1, h1, wide), steps_along(d2, h2, wide));
         if (!(growth <= slope && turn * farthest <= LARGEST_TURN_STRETCHED)) return false;
@@ -192,14 +197,9 @@ bool keeps_lattice(SurfaceReader& surface, Point2 extent, const SizeRules& rules
     const double farthest = 0.5 * norm(extent);
     const Point2 wide = box.high - box.low;
     for (std::size_t place = 0; place < PLACES; ++place) {
-        Around<Point2> d1, d2;
-        Around<double> own;
-        for (std::size_t beside = 0; beside < BESIDE.size(); ++beside) {
-            const std::size_t row = place * BESIDE.size() + beside;
-            d1[beside] = at[row].d1;
-            d2[beside] = at[row].d2;
-            own[beside] = size[row];
-        }
+        const auto d1 = around(place, [&](std::size_t row) { return at[row].d1; });
+        const auto d2 = around(place, [&](std::size_t row) { return at[row].d2; });
+        const auto own = around(place, [&](std::size_t row) { return size[row]; });
         const auto [turn, growth] =
             rates_at(own, steps_along(d1, own, wide), steps_along(d2, own, wide));
         if (!(growth <= slope && turn * farthest <= LARGEST_TURN)) return false;
