@@ -97,9 +97,10 @@ def mesh_patch(
     """Mesh the inside of a boundary, with sizes of one field in the plane of ``chart``.
 
     first: the sizes come from no earlier round. evenly: the chord is used so where ``field.sizing``
-    asks for it. box: (4,) in the plane, what is packed where it is
-    not the whole domain. watch: is told of the stages. Raises ``SurfaceError``, ``DomainError`` or
-    ``MeshingError`` with the reason.
+    asks for it. box: (4,) in the plane, what is packed where it is not the whole domain. watch: is
+    told of the stages.
+
+    Raises ``SurfaceError``, ``DomainError`` or ``MeshingError`` with the reason.
     """
     with nullcontext() if watch is None else watch.stages() as begin:
         found = _meshed(surface, chart, field, boundary, optimise, first, evenly, box, watch, begin)
