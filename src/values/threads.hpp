@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <thread>
+#include <functional>
 #include <vector>
 
 #include "values/array.hpp"
@@ -22,7 +22,12 @@ inline int& allowed_threads() {
     return count;
 }
 
-/// Call work(first, last) for blocks of [0, count). Work must not throw.
+/// Call work() in this thread and in ``threads`` - 1 others at the same time, in fewer where the
+/// system gives no more. Throws what one of them has thrown first, when all have come to an end.
+void run_by_threads(std::size_t threads, const std::function<void()>& work);
+
+/// Call work(first, last) for blocks of [0, count). Throws what work
+/// throws, when the others are done.
 template <class Work>
 void for_each_block(std::size_t count, std::size_t block, const Work& work) {
     const std::size_t blocks = (count + block - 1) / block;
@@ -34,13 +39,9 @@ void for_each_block(std::size_t count, std::size_t block, const Work& work) {
         return;
     }
     std::atomic<std::size_t> next = 0;
-    const auto drain = [&] {
+    run_by_threads(threads, [&] {
         for (std::size_t k = next++; k < blocks; k = next++) take(k);
-    };
-    std::vector<std::thread> others;
-    for (std::size_t n = 1; n < threads; ++n) others.emplace_back(drain);
-    drain();
-    for (std::thread& other : others) other.join();
+    });
 }
 
 /// So many are copied before another thread has begun.

@@ -29,7 +29,8 @@ def begun() -> Callable[[], None]:
     """
     loader = threading.Thread(target=_load, daemon=True)
     if "OCP" not in sys.modules and sys.platform != "win32":  # which looks for them elsewhere
-        loader.start()
+        with suppress(RuntimeError):  # no thread is to be had: the import itself does it all
+            loader.start()
 
     def imported() -> None:
         if loader.ident is not None:

@@ -8,7 +8,7 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
@@ -134,12 +134,13 @@ class FaceWorkers:
 
         with ThreadPoolExecutor(self.threads) as pool:
             try:
-                for _ in range(self.threads):
-                    pool.submit(take_all)
+                begun = _begun(pool, self.threads, take_all)
                 jobs.make(waiting[BEGUN:])
                 queues.append(FaceQueue(jobs, waiting[BEGUN:], makes))
                 single[:0] = queues[1].left[::-1]
                 is_ready.set()
+                if not begun:
+                    take_all()
                 left = len(waiting)
                 while left:
                     found = done.get()
@@ -152,6 +153,16 @@ class FaceWorkers:
                 for queue in queues:
                     queue.stop()
                 is_ready.set()
+
+
+def _begun(pool: ThreadPoolExecutor, threads: int, work: Callable[[], None]) -> int:
+    """How many threads have begun with ``work``: fewer where the system gives no more."""
+    for count in range(threads):
+        try:
+            pool.submit(work)
+        except RuntimeError:
+            return count
+    return threads
 
 
 def _by_executor(
