@@ -115,7 +115,7 @@ void bind_mesh_deviation(nb::module_& m) {
         "Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on "
         "the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, "
         "the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing."
-        "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,); "
+        "\n\nedges (k, 2): the half-edges of each, -1 where there is one; area (m,); "
         "in_plane (m,): as ``plane_triangles`` has it.");
     m.def(
         "plane_triangles",
