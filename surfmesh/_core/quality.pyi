@@ -16,6 +16,11 @@ def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(s
     Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.
     """
 
+def prepared_surfaces(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list:
+    """
+    The surfaces, with their points and first derivatives to rounding, for many places: a spline is made polynomials where the triangles, those of faces (m,), are many enough.
+    """
+
 def far_corners(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Corners (k,), 3 t + i for corner i of triangle t, farther than limit from r(u, v): of each row of uv that a triangle uses the last, but of those of which left_out (m,) is 1.

@@ -54,7 +54,7 @@ def deviation(
     if known is None:
         return None
     by_triangle, mean_square, cosine = mesh_deviation(
-        *known.arrays, mesh.connectivity.half_edges, area, known.in_plane
+        *known.prepared_arrays, mesh.connectivity.half_edges, area, known.in_plane
     )
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
@@ -88,13 +88,13 @@ def _second_look(
     worst = worst[~in_plane]
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     by_triangle[worst], triangle, point, uv = dense_deviation(
-        *known.arrays, worst, DENSE, chord, PATIENT_STEPS
+        *known.prepared_arrays, worst, DENSE, chord, PATIENT_STEPS
     )
     for _ in range(len(worst)):  # the largest by searches from its corners too
         own = worst[by_triangle[worst].argmax()][None]
         before = float(by_triangle[own[0]])
         by_triangle[own], triangle, point, uv = dense_deviation(
-            *known.arrays, own, DENSE, 0.0, PATIENT_STEPS
+            *known.prepared_arrays, own, DENSE, 0.0, PATIENT_STEPS
         )
         if not by_triangle[own[0]] < before:
             break
