@@ -1,8 +1,10 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
 #include <array>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -20,6 +22,7 @@
 #include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
 #include "surfaces/callback_surface.hpp"
+#include "surfaces/spline_polynomials.hpp"
 
 namespace surfmesh::binding {
 
@@ -57,6 +60,39 @@ void bind_surface_points(nb::module_& m) {
         },
         nb::arg("surfaces"), nb::arg("faces"), nb::arg("uv"), nb::arg("order"),
         "Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.");
+}
+
+/// How many triangles each of so many faces has.
+Array<std::size_t> triangles_of_faces(const Numbers& faces, std::size_t count) {
+    require_indices(rows<std::int32_t>(faces), count, "faces");
+    Array<std::size_t> found(count, 0);
+    for (const std::int32_t face : rows<std::int32_t>(faces)) ++found[face];
+    return found;
+}
+
+/// Surfaces as they are looked at in many places: splines as polynomials.
+nb::list prepared_surfaces(const nb::list& surfaces, const Numbers& faces) {
+    constexpr std::size_t LEAST_TRIANGLES = 4;  // on a polynomial: fewer are not worth it
+    nb::list prepared;
+    Array<std::size_t> triangles;
+    for (const nb::handle given : surfaces) {
+        const auto spline =
+            std::dynamic_pointer_cast<SplineSurface>(nb::cast<std::shared_ptr<Surface>>(given));
+        std::shared_ptr<Surface> made;
+        if (spline != nullptr) {
+            if (triangles.empty()) triangles = triangles_of_faces(faces, surfaces.size());
+            const auto face = static_cast<std::ptrdiff_t>(prepared.size());
+            made = SplinePolynomials::of(spline, triangles[face] / LEAST_TRIANGLES);
+        }
+        prepared.append(made == nullptr ? nb::borrow(given) : nb::cast(made));
+    }
+    return prepared;
+}
+
+void bind_prepared_surfaces(nb::module_& m) {
+    m.def("prepared_surfaces", &prepared_surfaces, nb::arg("surfaces"), nb::arg("faces"),
+          "The surfaces, with their points and first derivatives to rounding, for many places: a "
+          "spline is made polynomials where the triangles, those of faces (m,), are many enough.");
 }
 
 void bind_far_corners(nb::module_& m) {
@@ -115,7 +151,7 @@ void bind_mesh_deviation(nb::module_& m) {
         "Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on "
         "the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, "
         "the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing."
-        "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,); "
+        "\n\nedges (k, 2): the half-edges of each, -1 where there is one; area (m,); "
         "in_plane (m,): as ``plane_triangles`` has it.");
     m.def(
         "plane_triangles",
@@ -384,6 +420,7 @@ void bind_figures(nb::module_& m);
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surface_points(m);
+    bind_prepared_surfaces(m);
     bind_far_corners(m);
     bind_mesh_deviation(m);
     bind_least_triangles(m);

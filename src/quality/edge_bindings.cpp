@@ -76,17 +76,6 @@ void bind_lengths(nb::module_& m) {
         nb::arg("edges"), nb::arg("lengths"), nb::arg("vertices"),
         "Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each "
         "vertex; 0 and infinite where there is none.");
-    m.def(
-        "edges_of_faces",
-        [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {
-            const auto sides = half_edge_pairs(half_edges, faces.shape(0));
-            const auto seen =
-                released([&] { return edges_of_faces(sides, rows<std::int32_t>(faces)); });
-            return view(seen);
-        },
-        nb::arg("half_edges"), nb::arg("faces"),
-        "Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those "
-        "between two faces (m,) of triangles the first, and at the end the second.");
 }
 
 void bind_angles(nb::module_& m) {

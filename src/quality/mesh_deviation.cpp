@@ -128,12 +128,30 @@ class HeightAbove {
     Point3 origin_, normal_;
 };
 
+/// Edges whose middles are looked at: within a face once, between two faces from both of them; not
+/// from triangles in a plane, whose corners say all.
+Array<EdgeSides> edges_of_faces(const MeasuredMesh& mesh, std::span<const EdgeSides> all,
+                                std::span<const std::uint8_t> in_plane) {
+    const auto is_left_out = [&](HalfEdge side) { return side == NIL || in_plane[side / 3] != 0; };
+    Array<EdgeSides> found;
+    found.reserve(all.size());
+    for (const auto& [first, second] : all) {
+        if (second == NIL || mesh.faces[first / 3] == mesh.faces[second / 3]) {
+            if (!is_left_out(first) || !is_left_out(second)) found.push_back({first, second});
+        } else {
+            for (const HalfEdge side : {first, second})
+                if (!is_left_out(side)) found.push_back({side, NIL});
+        }
+    }
+    return found;
+}
+
 class Measure {
   public:
     Measure(const MeasuredMesh& mesh, std::span<const EdgeSides> edges,
             std::span<const double> area, std::span<const std::uint8_t> in_plane)
         : mesh_(mesh),
-          edges_(edges),
+          edges_(edges_of_faces(mesh, edges, in_plane)),
           area_(area),
           in_plane_(in_plane),
           at_vertex_(mesh.points.size(), 0.0) {
@@ -156,13 +174,12 @@ class Measure {
             SurfaceReader surface(*mesh_.surfaces[face]);
             at_vertices(surface, corners, vertices.of(face));
             if (const Frame* plane = plane_of(*mesh_.surfaces[face])) {
-                const HeightAbove height(*plane);
-                at_middles(surface, middles_in_plane(height, middles.of(face)));
-                at_centroids(surface, centroids_in_plane(height, triangles.of(face)));
+                in_plane(HeightAbove(*plane), triangles.of(face));
+                at_centroids(surface, all(others_));
             } else {
-                at_middles(surface, middles.of(face));
                 at_centroids(surface, triangles.of(face));
             }
+            at_middles(surface, middles.of(face));
             if (!surface.failed()) continue;
             found_.failed = static_cast<std::int32_t>(face);
             return std::move(found_);
@@ -244,27 +261,8 @@ class Measure {
         });
     }
 
-    /// What triangles in a plane say of the middles of their edges. Returns the other edges.
-    std::span<const std::int32_t> middles_in_plane(const HeightAbove& height,
-                                                   std::span<const std::int32_t> members) {
-        others_.clear();
-        for (const std::int32_t e : members) {
-            const std::size_t t = edges_[e].half_edge / 3, side = edges_[e].half_edge % 3;
-            if (in_plane_[t] == 0) {
-                others_.push_back(e);
-                continue;
-            }
-            const TriangleCorners& corners = mesh_.triangles[t];
-            const double sum = height(mesh_.points[corner(corners, side)]) +
-                               height(mesh_.points[corner(corners, (side + 1) % 3)]);
-            add_at_middle(edges_[e], 0.25 * (sum * sum));
-        }
-        return all(others_);
-    }
-
-    /// The same of their centroids. Returns the other triangles.
-    std::span<const std::int32_t> centroids_in_plane(const HeightAbove& height,
-                                                     std::span<const std::int32_t> members) {
+    /// Triangles in a plane by the heights of their corners; ``others_`` are those that are not.
+    void in_plane(const HeightAbove& height, std::span<const std::int32_t> members) {
         others_.clear();
         for (const std::int32_t t : members) {
             if (in_plane_[t] == 0) {
@@ -272,17 +270,19 @@ class Measure {
                 continue;
             }
             const TriangleCorners& k = mesh_.triangles[t];
-            const double sum =
-                height(mesh_.points[k.a]) + height(mesh_.points[k.b]) + height(mesh_.points[k.c]);
-            add(t, sum * sum / 9.0, CENTROID_WEIGHT);
+            const double a = height(mesh_.points[k.a]), b = height(mesh_.points[k.b]),
+                         c = height(mesh_.points[k.c]);
+            const double ab = 0.25 * (a + b) * (a + b), bc = 0.25 * (b + c) * (b + c),
+                         ca = 0.25 * (c + a) * (c + a), abc = (a + b + c) * (a + b + c) / 9.0;
+            found_.largest[t] = std::max({ab, bc, ca, abc});
+            found_.mean_square[t] = MIDDLE_WEIGHT * (ab + bc + ca) + CENTROID_WEIGHT * abc;
             found_.cosine[t] = static_cast<float>(cosine(t, height.normal()));
         }
-        return all(others_);
     }
 
     void add_at_middle(const EdgeSides& sides, double squared) {
-        add(sides.half_edge / 3, squared, MIDDLE_WEIGHT);
-        if (sides.twin != NIL) add(sides.twin / 3, squared, MIDDLE_WEIGHT);
+        for (const HalfEdge side : {sides.half_edge, sides.twin})
+            if (side != NIL && in_plane_[side / 3] == 0) add(side / 3, squared, MIDDLE_WEIGHT);
     }
 
     void measure(SurfaceReader& surface) {
@@ -406,7 +406,7 @@ class Measure {
     }
 
     const MeasuredMesh& mesh_;
-    std::span<const EdgeSides> edges_;
+    Array<EdgeSides> edges_;
     std::span<const double> area_;
     std::span<const std::uint8_t> in_plane_;
     Array<double> at_vertex_;     // squares of distances, as those of triangles until the end

@@ -1,6 +1,6 @@
 // How far a whole mesh lies from its surfaces, and how its triangles are turned.
 //
-// In: the mesh, one or two half-edges of every edge, the areas. Looked at are the vertices, once
+// In: the mesh, both half-edges of every edge, the areas. Looked at are the vertices, once
 // each, the middles of the edges, between two faces once for either, and the centroids:
 //
 //              x               the seven points of a rule that integrates cubics over a triangle
@@ -27,8 +27,7 @@ struct MeshDeviation {
     std::int32_t failed = -1;   // number of a surface that has failed, then nothing else counts
 };
 
-/// edges: within a face each edge once, between two faces from both. in_plane: 1 for triangles of
-/// ``plane_triangles``, whose corners say all.
+/// edges: each one once. in_plane: 1 for triangles of ``plane_triangles``, whose corners say all.
 MeshDeviation mesh_deviation(const MeasuredMesh& mesh, std::span<const EdgeSides> edges,
                              std::span<const double> area, std::span<const std::uint8_t> in_plane);
 

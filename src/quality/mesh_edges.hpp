@@ -1,5 +1,4 @@
-// Edges of a finished mesh: their lengths, from which faces they are looked at, and the angles
-// across them.
+// Edges of a finished mesh: their lengths, and the angles across them.
 //
 // In: points, triangles and the edge table (space/edge_table.hpp): the ends of each edge, the first
 // two half-edges along it, by how many triangles it is used. Nothing changes.
@@ -8,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "quality/measured_mesh.hpp"
+#include "space/box_tree.hpp"
 #include "space/edge_table.hpp"
 #include "values/array.hpp"
 
@@ -42,11 +41,6 @@ struct SizeChanges {
 /// Where the quotient is not finite there is no change.
 SizeChanges size_changes(std::span<const double> apart, std::span<const double> lengths,
                          double slope, double most);
-
-/// Half-edges for ``mesh_deviation``: each edge within a face once; between two faces from the
-/// first of them, and after all others from the second.
-Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
-                                std::span<const std::int32_t> faces);
 
 /// The edges between two triangles of one face, the face of each, and the angle there, degrees.
 struct AnglesWithinFaces {

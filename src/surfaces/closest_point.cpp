@@ -70,9 +70,6 @@ class Search {
     bool advance(bool is_last) {
         keep_unconverged();
         if (active_.empty()) return false;
-        trials_.clear();
-        for (std::size_t k = 0; k < active_.size(); ++k)
-            trials_.push_back(within(found_.uv[active_[k]] + steps_[k].uv));
         surface_.read(trials_, is_last ? 0 : 1);
         for (std::size_t k = 0; k < active_.size(); ++k) judge(k, is_last);
         return true;
@@ -86,10 +83,16 @@ class Search {
         return clipped(joined_.crossed(place, surface_.domain()), box_);
     }
 
+    /// And where their steps lead to. One that leads nowhere is the last: at walls, or shortened
+    /// to round-off.
     void keep_unconverged() {
         std::size_t kept = 0;
+        trials_.clear();
         for (std::size_t k = 0; k < active_.size(); ++k) {
             if (!(steps_[k].squared > CONVERGED * CONVERGED * squared_[active_[k]])) continue;
+            const Point2 here = found_.uv[active_[k]], trial = within(here + steps_[k].uv);
+            if (trial.x == here.x && trial.y == here.y) continue;
+            trials_.push_back(trial);
             active_[kept] = active_[k];
             steps_[kept++] = steps_[k];
         }

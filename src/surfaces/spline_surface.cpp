@@ -57,6 +57,14 @@ struct ControlSums {
 
 }  // namespace
 
+Array<Point3> SplineSurface::control_of(std::int64_t u_span, std::int64_t v_span) const {
+    Array<Point3> found;
+    const Point3* row = control_.data() + corner_at(u_span, v_span);
+    for (std::size_t a = 0; a <= u_.degree(); ++a, row += columns_)
+        for (std::size_t b = 0; b <= v_.degree(); ++b) found.push_back(row[b]);
+    return found;
+}
+
 /// Sums over the control points from one corner on, for all derivatives: about the one in the
 /// middle, times weights where there are some, and sums of these.
 template <int order, bool rational, class Number>

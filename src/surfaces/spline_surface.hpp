@@ -39,6 +39,12 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
                                      PartBoxes& out) const override;
     [[nodiscard]] bool enclose_tangents(Point2 uv, TangentBoxes& out) const override;
 
+    [[nodiscard]] const SplineBasis& u() const { return u_; }
+    [[nodiscard]] const SplineBasis& v() const { return v_; }
+    [[nodiscard]] bool is_rational() const { return !weights_.empty(); }
+    /// The control points that count in two spans, rows of v.
+    [[nodiscard]] Array<Point3> control_of(std::int64_t u_span, std::int64_t v_span) const;
+
   private:
     template <int order, bool rational>
     void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import (
     dense_deviation,
-    edges_of_faces,
     largest_values,
     mesh_deviation,
 )
@@ -55,7 +54,7 @@ def deviation(
     if known is None:
         return None
     by_triangle, mean_square, cosine = mesh_deviation(
-        *known.arrays, _measured_edges(mesh), area, known.in_plane
+        *known.prepared_arrays, mesh.connectivity.half_edges, area, known.in_plane
     )
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
@@ -70,17 +69,6 @@ def deviation(
 def looked_at_closely(triangles: int) -> int:
     """How many of so many triangles are sampled densely: those that are farthest."""
     return min(triangles, max(SECOND_LOOK, triangles // ONE_IN))
-
-
-def _measured_edges(mesh: SurfaceMesh) -> NDArray[np.int32]:
-    """Half-edges (k, 2) whose middles are looked at, and those that share the finding or -1.
-
-    An edge within a face is looked at once, an edge between two faces from both of them.
-    """
-    pairs = mesh.connectivity.half_edges
-    if len(mesh.surfaces) == 1:
-        return pairs
-    return edges_of_faces(pairs, mesh.face_ids)
 
 
 def _dot(a: NDArray, b: NDArray) -> float:
@@ -100,13 +88,13 @@ def _second_look(
     worst = worst[~in_plane]
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     by_triangle[worst], triangle, point, uv = dense_deviation(
-        *known.arrays, worst, DENSE, chord, PATIENT_STEPS
+        *known.prepared_arrays, worst, DENSE, chord, PATIENT_STEPS
     )
     for _ in range(len(worst)):  # the largest by searches from its corners too
         own = worst[by_triangle[worst].argmax()][None]
         before = float(by_triangle[own[0]])
         by_triangle[own], triangle, point, uv = dense_deviation(
-            *known.arrays, own, DENSE, 0.0, PATIENT_STEPS
+            *known.prepared_arrays, own, DENSE, 0.0, PATIENT_STEPS
         )
         if not by_triangle[own[0]] < before:
             break

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import (
     plane_triangles,
+    prepared_surfaces,
     sampled_surface,
     surface_distances,
     surface_points,
@@ -23,6 +24,10 @@ from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 Rows = NDArray[np.integer[Any]]
+Arrays = tuple[
+    list[CoreSurface], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64],
+    NDArray[np.int32], NDArray[np.int32],
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -88,19 +93,27 @@ class KnownSurfaces:
         """Those of the mesh, as the core has them."""
         return [as_core_surface(surface) for surface in self.mesh.surfaces]
 
+    @cached_property
+    def prepared_surfaces(self) -> list[CoreSurface]:
+        """The same for many places: points and first derivatives are as theirs to rounding."""
+        return prepared_surfaces(self.core_surfaces, self.mesh.face_ids)
+
     @property
-    def arrays(
-        self,
-    ) -> tuple[
-        list[CoreSurface], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64],
-        NDArray[np.int32], NDArray[np.int32],
-    ]:  # fmt: skip
+    def arrays(self) -> Arrays:
         """Surfaces, points, triangles, parameters, triangles of these, faces: what the core takes
         as a mesh on its surfaces."""
+        return self._on(self.core_surfaces)
+
+    @property
+    def prepared_arrays(self) -> Arrays:
+        """The same on ``prepared_surfaces``."""
+        return self._on(self.prepared_surfaces)
+
+    def _on(self, surfaces: list[CoreSurface]) -> Arrays:
         mesh, corners = self.mesh, self.corners
         return (
-            self.core_surfaces, mesh.points, mesh.triangles, corners.uv_points,
-            corners.uv_triangles, mesh.face_ids,
+            surfaces, mesh.points, mesh.triangles, corners.uv_points, corners.uv_triangles,
+            mesh.face_ids,
         )  # fmt: skip
 
     @cached_property

@@ -40,7 +40,7 @@ def off_surface(known: KnownSurfaces, tolerances: Tolerances) -> OffSurface:
         return none
     left_out = bound | (known.in_plane != 0)
     limit = OFF * known.diagonal
-    far = far_corners(*known.arrays, left_out.view(np.uint8), limit)
+    far = far_corners(*known.prepared_arrays, left_out.view(np.uint8), limit)
     if len(far):
         far = far[~_on_model_edges(mesh)[mesh.triangles.reshape(-1)[far]]]
     if not len(far):

@@ -63,8 +63,8 @@ def surface_deviation(
         return None
     faces = FacesWithCurves(known, SegmentCurves.of(known.mesh))
     search = SurfaceSearch(
-        *known.arrays, fit.by_triangle, fit.largest, tolerances.chord * (1.0 + CHORD_SLACK),
-        faces.are_left,
+        *known.prepared_arrays, fit.by_triangle, fit.largest,
+        tolerances.chord * (1.0 + CHORD_SLACK), faces.are_left,
     )  # fmt: skip
     search.look_over(known.in_plane, WITHIN)  # in a plane corners say all
     # after these, which tell what is not worth a search along flat faces

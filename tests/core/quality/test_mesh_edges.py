@@ -65,11 +65,6 @@ def test_lengths_angles_and_faces_are_those_of_numpy(seed):
     assert edges.tolist() == within.tolist() and own.tolist() == first[within].tolist()
     wanted = np.degrees(dihedral_angles(points, triangles, table.half_edges[within]))
     assert degrees.tolist() == wanted.tolist()
-    seen = quality.edges_of_faces(table.half_edges, faces)
-    between = (table.half_edges[:, 1] >= 0) & (first != second)
-    assert seen[: len(table.edges), 0].tolist() == table.half_edges[:, 0].tolist()
-    assert ((seen[: len(table.edges), 1] < 0) == (between | (table.half_edges[:, 1] < 0))).all()
-    assert seen[len(table.edges) :, 0].tolist() == table.half_edges[between, 1].tolist()
 
 
 def rim_losses(points, triangles, sides, sagitta, far):
@@ -161,7 +156,6 @@ def test_what_is_out_of_range_is_refused():
     for call in (
         lambda: quality.triangle_fans(triangles, len(points), wrong),
         lambda: quality.triangle_fans(triangles, 3, table.half_edges),
-        lambda: quality.edges_of_faces(wrong, np.zeros(len(triangles), np.int32)),
         lambda: quality.edge_lengths(points[:2], table.edges),
         lambda: quality.has_repeated_triangles(triangles, 2),
         lambda: quality.clashing_edges(triangles, table.half_edges, table.uses[1:]),

@@ -57,10 +57,14 @@ def test_parameters_that_are_wrong_are_looked_at(mesh):
     assert wrong.accuracy.surface_deviation_max > 10.0
 
 
-def test_distances_within_planes_are_those_of_a_search(mesh):
-    """Of triangles that are in their planes to rounding, looked at both ways."""
-    noise = np.random.default_rng(3).normal(size=mesh.points.shape)
-    shaken = mesh.replaced(points=mesh.points + 1e-12 * noise)
+@pytest.mark.parametrize("moved", [0, 20])
+def test_distances_within_planes_are_those_of_a_search(mesh, moved):
+    """Of triangles that are in their planes to rounding, looked at both ways, and of those beside
+    vertices that leave them."""
+    rng = np.random.default_rng(3)
+    points = mesh.points + 1e-12 * rng.normal(size=mesh.points.shape)
+    points[rng.integers(0, len(points), moved)] += 0.01
+    shaken = mesh.replaced(points=points)
     known, area = KnownSurfaces.of(shaken), shapes(shaken).area
     found = deviation(shaken, area, known)
     assert known.in_plane.any()

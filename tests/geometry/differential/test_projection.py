@@ -44,6 +44,29 @@ def test_error_falls_with_the_steps():
     assert worst[1] < 0.1 * worst[0] and worst[2] < 1e-6
 
 
+def test_a_search_ends_where_its_steps_lead_nowhere():
+    """At walls, which a nearest point may lie beyond, and where no shortened step is nearer."""
+    surface = load_formula_file(gallery()["wavy"])
+    (u0, u1), (v0, v1) = surface.domain
+    blocks = []
+
+    class Counted:
+        name, domain, loops = "counted", surface.domain, ()
+
+        def evaluate(self, uv, order=0):
+            blocks.append(len(uv))
+            return surface.evaluate(uv, order)
+
+        def derivative_bounds(self, lo, hi):
+            return None
+
+    corner = surface.evaluate(np.array([[u1, v1]]))[0]
+    beyond = corner + 0.3 * (corner - surface.evaluate(np.array([[u0, v0]]))[0])
+    uv, _, _ = closest_point(Counted(), beyond, [[u1, v1]], steps=500)
+    assert (uv > [u1, v1]).all()  # beyond the domain as far as it may be
+    assert len(blocks) < 50
+
+
 def test_brute_force_finds_nothing_nearer():
     surface = load_formula_file(gallery()["wavy"])
     uv, points, _ = offset(surface, count=50)
