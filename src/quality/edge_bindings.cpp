@@ -25,57 +25,7 @@ std::span<const Vertex> all_numbers(const VertexTriples& triangles) {
     return {triangles.data(), triangles.size()};
 }
 
-/// Edges (k, 2) between so many vertices.
-std::span<const EdgeTable::Ends> ends_of(const SidePairs& edges, std::size_t vertices) {
-    require_indices(std::span(edges.data(), edges.size()), vertices, "edges");
-    return {reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
-}
-
-void bind_lengths(nb::module_& m) {
-    m.def(
-        "edge_lengths",
-        [](const Points3& points, const SidePairs& edges) {
-            const auto ends = ends_of(edges, points.shape(0));
-            const auto lengths = released([&] { return edge_lengths(rows<Point3>(points), ends); });
-            return view(lengths);
-        },
-        nb::arg("points"), nb::arg("edges"), "Length (k,) of edges (k, 2) between points (n, 3).");
-    m.def(
-        "edge_sizes",
-        [](const SidePairs& edges, const Vector<double>& sizes) {
-            const auto ends = ends_of(edges, sizes.shape(0));
-            const auto found = released([&] { return edge_sizes(ends, rows<double>(sizes)); });
-            return std::tuple(view(found.mean), view(found.apart));
-        },
-        nb::arg("edges"), nb::arg("sizes"),
-        "Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) "
-        "they "
-        "are apart.");
-    m.def(
-        "size_changes",
-        [](const Vector<double>& apart, const Vector<double>& lengths, double slope, double most) {
-            require_rows(lengths.shape(0), apart.shape(0), "lengths");
-            const nb::gil_scoped_release released;
-            const SizeChanges found =
-                size_changes(rows<double>(apart), rows<double>(lengths), slope, most);
-            return std::tuple(found.steepest, found.largest, found.above);
-        },
-        nb::arg("apart"), nb::arg("lengths"), nb::arg("slope"), nb::arg("most"),
-        "The first edge, -1 for none, along which the quotient of apart (k,) and slope times "
-        "lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above "
-        "``most``.");
-    m.def(
-        "edge_extremes",
-        [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
-            const auto ends = ends_of(edges, vertices);
-            require_rows(lengths.shape(0), edges.shape(0), "lengths");
-            const auto found =
-                released([&] { return edge_extremes(ends, rows<double>(lengths), vertices); });
-            return std::tuple(view(found.longest), view(found.shortest));
-        },
-        nb::arg("edges"), nb::arg("lengths"), nb::arg("vertices"),
-        "Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each "
-        "vertex; 0 and infinite where there is none.");
+void bind_sides(nb::module_& m) {
     m.def(
         "edges_of_faces",
         [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {
@@ -89,32 +39,7 @@ void bind_lengths(nb::module_& m) {
         "between two faces (m,) of triangles the first, and at the end the second.");
 }
 
-void bind_angles(nb::module_& m) {
-    m.def(
-        "angles_within_faces",
-        [](const Points3& points, const VertexTriples& triangles, const Vector<std::int32_t>& faces,
-           const SidePairs& half_edges, const Vector<std::int32_t>& uses) {
-            require_indices(all_numbers(triangles), points.shape(0), "triangles");
-            require_rows(faces.shape(0), triangles.shape(0), "faces");
-            require_rows(uses.shape(0), half_edges.shape(0), "uses");
-            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
-            AnglesWithinFaces found;
-            {
-                const nb::gil_scoped_release released;
-                found =
-                    angles_within_faces(rows<Point3>(points), rows<TriangleCorners>(triangles),
-                                        rows<std::int32_t>(faces), sides, rows<std::int32_t>(uses));
-            }
-            return std::tuple(view(found.edges), view(found.faces), view(found.degrees));
-        },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("faces"), nb::arg("half_edges"),
-        nb::arg("uses"),
-        "Numbers (k,) of the edges between two triangles of one face, that face (k,), and the "
-        "angle (k,) between their normals, degrees.\n\npoints (n, 3), triangles (m, 3), faces "
-        "(m,); half_edges (ne, 2) and uses (ne,) of the edge table.");
-}
-
-void bind_rims(nb::module_& m) {
+void bind_sagittas(nb::module_& m) {
     m.def(
         "edge_sagittas",
         [](const Points3& points, const SidePairs& segments, const Numbers& edges) {
@@ -133,44 +58,6 @@ void bind_rims(nb::module_& m) {
         nb::arg("points"), nb::arg("segments"), nb::arg("edges"),
         "About twice the sagittas (k,) of segments (k, 2), rows of points (n, 3), by the angles "
         "between those that follow each other on one of the edges (k,); 0 where one is alone.");
-    m.def(
-        "rim_losses",
-        [](const Points3& points, const VertexTriples& triangles, const Numbers& faces,
-           const SidePairs& half_edges, const Vector<std::int32_t>& uses,
-           const Vector<std::int64_t>& edge, const Vector<double>& sagitta,
-           const Vector<double>& distance, double sharpest, std::size_t count) {
-            require_indices(all_numbers(triangles), points.shape(0), "triangles");
-            require_rows(faces.shape(0), triangles.shape(0), "faces");
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(uses.shape(0), half_edges.shape(0), "uses");
-            require_rows(sagitta.shape(0), edge.shape(0), "sagitta");
-            require_rows(distance.shape(0), triangles.shape(0), "distance");
-            const std::span<const std::int64_t> given = rows<std::int64_t>(edge);
-            for (const std::int64_t row : given)
-                if (row < NIL || row >= static_cast<std::int64_t>(uses.shape(0)))
-                    throw nb::value_error("edge has a row that is out of range");
-            const JoinedTriangles mesh{
-                rows<Point3>(points), rows<TriangleCorners>(triangles), rows<std::int32_t>(faces),
-                half_edge_pairs(half_edges, triangles.shape(0)), rows<std::int32_t>(uses)};
-            RimLosses lost;
-            {
-                const nb::gil_scoped_release released;
-                lost = rim_losses(mesh, {given, rows<double>(sagitta)}, rows<double>(distance),
-                                  sharpest, count);
-            }
-            return std::pair(view(lost.of_edges), view(lost.of_faces));
-        },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("faces"), nb::arg("half_edges"),
-        nb::arg("uses"), nb::arg("edge"), nb::arg("sagitta"), nb::arg("distance"),
-        nb::arg("sharpest"), nb::arg("count"),
-        "Area that rims lose: of edges (ne,), 0 where one is none, and of ``count`` faces, of "
-        "edges "
-        "of one or two triangles. It is length times the larger of sagitta and the distance (m,) "
-        "of "
-        "their triangles over the sine between these, not below ``sharpest``, at most the length."
-        "\n\nRims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for "
-        "none; points (n, 3), triangles (m, 3) of faces (m,), half_edges (ne, 2) and uses (ne,) of "
-        "the edge table.");
 }
 
 void bind_fans(nb::module_& m) {
@@ -237,9 +124,8 @@ void bind_fans(nb::module_& m) {
 }  // namespace
 
 void bind_mesh_edges(nb::module_& m) {
-    bind_lengths(m);
-    bind_angles(m);
-    bind_rims(m);
+    bind_sides(m);
+    bind_sagittas(m);
     bind_fans(m);
 }
 

@@ -1,6 +1,5 @@
 #include "quality/face_figures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,40 +38,6 @@ FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<cons
         found.marked[face] += marked[t] != 0 ? 1 : 0;
     }
     return found;
-}
-
-FaceAngles face_angles(std::span<const std::int32_t> faces, std::span<const double> degrees,
-                       std::span<const double> most, std::size_t count) {
-    FaceAngles found{Array<double>(count, 0.0), Array<std::int64_t>(count, 0),
-                     Array<std::int64_t>(count, 0)};
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-        const std::int32_t face = faces[k];
-        double& largest = found.largest[face];
-        if (degrees[k] > largest || std::isnan(degrees[k])) largest = degrees[k];
-        found.above[face] += degrees[k] > most[most.size() == 1 ? 0 : face] ? 1 : 0;
-        ++found.number[face];
-    }
-    return found;
-}
-
-Array<double> face_edge_means(std::span<const std::int32_t> faces,
-                              std::span<const EdgeTable::Sides> half_edges,
-                              std::span<const double> values, std::size_t count) {
-    Array<double> first_sum(count, 0.0), second_sum(count, 0.0);
-    Array<std::int64_t> number(count, 0);
-    for (std::size_t k = 0; k < half_edges.size(); ++k) {
-        const auto [first, second] = half_edges[k];
-        const std::int32_t face = faces[first / 3];
-        first_sum[face] += values[k];
-        ++number[face];
-        if (second == NIL || faces[second / 3] == face) continue;
-        second_sum[faces[second / 3]] += values[k];
-        ++number[faces[second / 3]];
-    }
-    for (std::size_t f = 0; f < count; ++f)
-        first_sum[f] = (first_sum[f] + second_sum[f]) /
-                       static_cast<double>(std::max<std::int64_t>(number[f], 1));
-    return first_sum;
 }
 
 }  // namespace surfmesh

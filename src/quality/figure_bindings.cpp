@@ -60,23 +60,6 @@ void bind_face_triangles(nb::module_& m) {
         "Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean "
         "square times area, and how many triangles are marked, not 0, (count,) each; by triangles "
         "of faces (m,), all others (m,).");
-    m.def(
-        "face_angles",
-        [](const FaceNumbers& faces, const Vector<double>& degrees, const Vector<double>& most,
-           std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(degrees.shape(0), faces.shape(0), "degrees");
-            if (most.shape(0) != 1) require_rows(most.shape(0), count, "most");
-            const auto found = released([&] {
-                return face_angles(rows<std::int32_t>(faces), rows<double>(degrees),
-                                   rows<double>(most), count);
-            });
-            return std::tuple(view(found.largest), view(found.above), view(found.number));
-        },
-        nb::arg("faces"), nb::arg("degrees"), nb::arg("most"), nb::arg("count"),
-        "Of ``count`` faces the largest angle across an edge within, 0 without any, how many are "
-        "above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within "
-        "faces (k,), degrees (k,).");
 }
 
 void require_vertices(const Triangles& triangles, std::size_t count, const char* what) {
@@ -170,25 +153,6 @@ void bind_figures(nb::module_& m) {
     bind_face_triangles(m);
     bind_order(m);
     bind_places(m);
-    m.def(
-        "face_edge_means",
-        [](const FaceNumbers& faces, const Matrix<std::int32_t, 2>& half_edges,
-           const Vector<double>& values, std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(values.shape(0), half_edges.shape(0), "values");
-            const auto sides = half_edge_pairs(half_edges, faces.shape(0));
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found =
-                    face_edge_means(rows<std::int32_t>(faces), sides, rows<double>(values), count);
-            }
-            return view(found);
-        },
-        nb::arg("faces"), nb::arg("half_edges"), nb::arg("values"), nb::arg("count"),
-        "Mean (count,) of values (k,) over the edges of each face, 0 where there is none; "
-        "half_edges (k, 2): the triangles beside them are of faces (m,), -1 in the second column "
-        "for none. An edge between two faces counts for both.");
     m.def(
         "binned_counts",
         [](const Vector<double>& values, double low, double high, std::size_t bins) {

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import EdgeFigures, JoinedTriangles
 from surfmesh.quality.measures.against_model import Unexpected, unexpected
-from surfmesh.quality.measures.area_and_volume import Explained, explained, is_known
+from surfmesh.quality.measures.area_and_volume import explained_areas, is_known
 from surfmesh.quality.measures.bodies import Bodies, bodies
 from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
@@ -25,17 +26,9 @@ from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.joined import NumberedFaces, joined_triangles
 from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
-from surfmesh.quality.measures.lengths import (
-    EdgeSizes,
-    Growth,
-    SizeGrowth,
-    edge_lengths,
-    edge_sizes,
-    growth,
-    metric_lengths,
-    size_growth,
-)
+from surfmesh.quality.measures.lengths import SizeGrowth, edge_figures, size_growth
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.off_surface import OffSurface, off_surface
 from surfmesh.quality.measures.proof import Proof, proof
@@ -128,33 +121,31 @@ class Measurements:
         return None if self.mesh.metric_root_3d is None else metric_alpha(self.mesh)
 
     @cached_property
-    def lengths(self) -> NDArray[np.float64]:
-        """(ne,) of its edges."""
-        return edge_lengths(self.mesh)
+    def faces(self) -> NumberedFaces:
+        """All faces in a row."""
+        return NumberedFaces.of(self.mesh)
 
     @cached_property
-    def edge_sizes(self) -> EdgeSizes | None:
-        """The target sizes at the ends of its edges."""
-        return edge_sizes(self.mesh)
+    def joined(self) -> JoinedTriangles:
+        """The mesh with its edge table, as the core takes it."""
+        return joined_triangles(self.mesh, self.faces)
 
     @cached_property
+    def edges(self) -> EdgeFigures:
+        """Lengths of its edges."""
+        asked = None if self.mesh.sizing is None else self.mesh.sizing.gradient
+        slope = asked if asked is not None and self.finite else 0.0
+        return edge_figures(self.mesh, self.joined, slope)
+
+    @property
     def metric_lengths(self) -> NDArray[np.float64] | None:
-        """(ne,) the same over the target sizes."""
-        return metric_lengths(self.mesh, self.lengths, self.edge_sizes)
-
-    @cached_property
-    def growth(self) -> Growth:
-        """Of edges at a vertex; in the metric, where sizes depend on the direction."""
-        metric = None if self.mesh.metric_root_3d is None else self.metric_lengths
-        return growth(self.mesh, self.lengths if metric is None else metric)
+        """(ne,) of its edges over the target sizes."""
+        return None if self.mesh.sizes is None else self.edges.metric_lengths
 
     @cached_property
     def size_growth(self) -> SizeGrowth | None:
         """Of the target sizes."""
-        slope = None if self.mesh.sizing is None else self.mesh.sizing.gradient
-        if slope is None or not self.finite:
-            return None
-        return size_growth(self.mesh, self.lengths, self.edge_sizes, slope)
+        return size_growth(self.mesh, self.edges)
 
     @cached_property
     def deviation(self) -> Deviation | None:
@@ -249,15 +240,15 @@ class Measurements:
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
         """Within faces."""
-        if not self.finite:
+        if not self.finite or self.known is None:
             return None
-        return angles_within_faces(self.mesh, self.tolerances.angle, self.known)
+        return angles_within_faces(self.known, self.joined, self.tolerances.angle)
 
     @cached_property
     def angle_check(self) -> ToleranceCheck | None:
         """Do the dihedral angles keep to the angle of each face? None: it has none."""
         dihedrals = self.dihedral_angles
-        if dihedrals is None or not len(dihedrals.angles):
+        if dihedrals is None or dihedrals.worst is None:
             return None
         if not np.isfinite(self.tolerances.angle).any():
             return None
@@ -309,11 +300,13 @@ class Measurements:
         )
 
     @cached_property
-    def explained(self) -> Explained | None:
-        """How much area and volume the deviation explains, where exact ones are known."""
+    def explained_areas(self) -> NDArray[np.float64] | None:
+        """(f,) how much area of each face the deviation explains, where exact ones are known."""
         if self.deviation is None or not self.has_exact_figures:
             return None
-        return explained(self.mesh, self.shapes.area, self.deviation.by_triangle)
+        return explained_areas(
+            self.mesh, self.joined, self.shapes.area, self.deviation.by_triangle
+        )
 
     @cached_property
     def crosses_itself(self) -> bool:

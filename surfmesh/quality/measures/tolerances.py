@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,7 +130,7 @@ def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> 
 
 
 def exceeds_angle(tolerances: Tolerances, dihedrals: DihedralAngles) -> NDArray[np.bool_]:
-    """(k,) across which edges the dihedral angle is larger than their face allows."""
+    """(k,) across which of ``dihedrals.edges`` the angle is larger than their face allows."""
     return dihedrals.above(tolerances.at(tolerances.angle, dihedrals.faces))
 
 
@@ -152,7 +152,7 @@ class _Excess(NamedTuple):
     size: NDArray[np.float64]  # (k,) target size there; infinite: not known
     factor: NDArray[np.float64]  # (k,) of it, that would keep to the tolerance
     points: NDArray[np.float64]  # (k, 3)
-    by_face: NDArray[np.intp]  # (f,) how many triangles or edges there are in all
+    by_face: NDArray[np.integer[Any]]  # (f,) how many triangles or edges there are in all
     total: int
 
 
@@ -184,9 +184,9 @@ def angle_check(
     angle = tolerances.at(tolerances.angle, faces)
     ends = mesh.edges[dihedrals.edges[far]]
     size, points = _sizes(mesh, ends), mesh.points[ends].mean(axis=1)
-    by_face, total = np.bincount(dihedrals.faces), len(dihedrals.angles)
+    total = int(dihedrals.number.sum())
     excess = _Excess(
-        "angle", far, faces, reached, angle, size, angle / reached, points, by_face, total
+        "angle", far, faces, reached, angle, size, angle / reached, points, dihedrals.number, total
     )
     return _split(tolerances, mesh, excess)
 
