@@ -1,14 +1,15 @@
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/optional.h>
 
+#include <algorithm>
 #include <array>
-#include <tuple>
+#include <optional>
 
 #include "binding/arrays.hpp"
 #include "binding/released.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/mesh_edges.hpp"
 #include "quality/rim_losses.hpp"
+#include "quality/sound_mesh.hpp"
 #include "quality/triangle_fans.hpp"
 
 namespace surfmesh::binding {
@@ -60,38 +61,7 @@ void bind_sagittas(nb::module_& m) {
         "between those that follow each other on one of the edges (k,); 0 where one is alone.");
 }
 
-void bind_fans(nb::module_& m) {
-    m.def(
-        "triangle_fans",
-        [](const VertexTriples& triangles, std::size_t vertices, const SidePairs& half_edges) {
-            require_indices(all_numbers(triangles), vertices, "triangles");
-            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
-            Array<std::int64_t> fans;
-            {
-                const nb::gil_scoped_release released;
-                fans = triangle_fans(rows<TriangleCorners>(triangles), vertices, sides);
-            }
-            return view(fans);
-        },
-        nb::arg("triangles"), nb::arg("vertices"), nb::arg("half_edges"),
-        "Fans (n,) of triangles (m, 3) at each vertex. half_edges (k, 2): pairs that join their "
-        "triangles along an edge, whichever way they run; -1 in the second column: none.");
-    m.def(
-        "clashing_edges",
-        [](const VertexTriples& triangles, const SidePairs& half_edges,
-           const Vector<std::int32_t>& uses) {
-            require_rows(uses.shape(0), half_edges.shape(0), "uses");
-            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
-            Array<std::int32_t> clashing;
-            {
-                const nb::gil_scoped_release released;
-                clashing = clashing_edges(rows<TriangleCorners>(triangles), sides,
-                                          rows<std::int32_t>(uses));
-            }
-            return view(clashing);
-        },
-        nb::arg("triangles"), nb::arg("half_edges"), nb::arg("uses"),
-        "Numbers (k,) of the edges whose two triangles run along them the same way.");
+void bind_soundness(nb::module_& m) {
     m.def(
         "unused_vertex",
         [](const VertexTriples& triangles, std::size_t vertices) {
@@ -102,14 +72,33 @@ void bind_fans(nb::module_& m) {
         nb::arg("triangles"), nb::arg("vertices"),
         "The first of so many vertices that belongs to none of triangles (m, 3), or -1.");
     m.def(
-        "are_proper",
-        [](const VertexTriples& triangles, std::size_t vertices) {
+        "is_sound",
+        [](const Points3& points, const VertexTriples& triangles,
+           const std::optional<Vector<double>>& sizes, const std::optional<Points3>& mid_points,
+           const std::optional<Points2>& uv, const std::optional<VertexTriples>& uv_triangles,
+           const Numbers& faces, std::optional<std::size_t> surfaces) {
+            const auto finite = [](const auto& array) {
+                return !array || are_finite({array->data(), array->size()});
+            };
             const nb::gil_scoped_release released;
-            return are_proper(rows<TriangleCorners>(triangles), vertices);
+            if (!are_proper(rows<TriangleCorners>(triangles), points.shape(0))) return false;
+            if (uv && uv_triangles && !are_in_range(all_numbers(*uv_triangles), uv->shape(0)))
+                return false;
+            if (surfaces && !are_in_range(rows<std::int32_t>(faces), *surfaces)) return false;
+            const bool are_positive =
+                !sizes || std::all_of(sizes->data(), sizes->data() + sizes->size(),
+                                      [](double size) { return size > 0.0; });
+            return are_positive && are_finite({points.data(), points.size()}) && finite(sizes) &&
+                   finite(mid_points) && finite(uv);
         },
-        nb::arg("triangles"), nb::arg("vertices"),
-        "Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no "
-        "three of them twice, and no vertex left out?");
+        nb::arg("points"), nb::arg("triangles"), nb::arg("sizes").none(),
+        nb::arg("mid_points").none(), nb::arg("uv").none(), nb::arg("uv_triangles").none(),
+        nb::arg("faces"), nb::arg("surfaces").none(),
+        "Does all hold that ``SurfaceMesh.broken_invariant`` is asked for? Corners of triangles "
+        "(m, "
+        "3) are all of points (n, 3), none twice in a triangle, no three of them twice, and no "
+        "vertex left out; uv_triangles (m, 3) are rows of uv (k, 2), faces (m,) of so many "
+        "surfaces; all numbers are finite, sizes (n,) positive.");
     m.def(
         "has_repeated_triangles",
         [](const VertexTriples& triangles, std::size_t vertices) {
@@ -126,7 +115,7 @@ void bind_fans(nb::module_& m) {
 void bind_mesh_edges(nb::module_& m) {
     bind_sides(m);
     bind_sagittas(m);
-    bind_fans(m);
+    bind_soundness(m);
 }
 
 }  // namespace surfmesh::binding

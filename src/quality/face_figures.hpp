@@ -1,12 +1,13 @@
 // The figures of each face in one pass over the triangles of a finished mesh.
 //
-// In: the face of each triangle, a number from 0 on, and what is known of each triangle. Out: sums
-// and extremes of each face, added up in the order of the triangles.
+// In: triangles on faces, and what is known of each triangle. Out: sums and extremes of each face,
+// added up in the order of the triangles.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "quality/joined_triangles.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
@@ -16,8 +17,8 @@ struct FaceShapes {
     Array<double> area, alpha_sum, alpha_min;  // alpha_min is infinite where there is no triangle
 };
 
-FaceShapes face_shapes(std::span<const std::int32_t> faces, std::span<const double> area,
-                       std::span<const double> alpha, std::size_t count);
+FaceShapes face_shapes(const JoinedTriangles& mesh, std::span<const double> area,
+                       std::span<const double> alpha);
 
 struct FaceDistances {
     Array<double> largest;       // NaN where one is, 0 without triangles
@@ -26,9 +27,11 @@ struct FaceDistances {
     Array<std::int64_t> marked;  // how many triangles are
 };
 
-/// marked: of each triangle, not 0 where it counts.
-FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<const double> distance,
-                             std::span<const double> mean_square, std::span<const double> area,
-                             std::span<const std::uint8_t> marked, std::size_t count);
+struct TriangleDistances {
+    std::span<const double> distance, mean_square, area;
+    std::span<const std::uint8_t> marked;  // not 0 where it counts
+};
+
+FaceDistances face_distances(const JoinedTriangles& mesh, const TriangleDistances& of);
 
 }  // namespace surfmesh

@@ -9,10 +9,13 @@
 #include "binding/released.hpp"
 #include "quality/angles_within_faces.hpp"
 #include "quality/edge_figures.hpp"
+#include "quality/enclosed_volumes.hpp"
 #include "quality/explained_losses.hpp"
+#include "quality/face_figures.hpp"
 #include "quality/joined_triangles.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/rim_losses.hpp"
+#include "quality/surface_topology.hpp"
 
 namespace surfmesh::binding {
 
@@ -122,6 +125,54 @@ auto rim_losses_of(const HeldTriangles& held, const Vector<std::int64_t>& edge,
     return std::pair(view(lost.of_edges), view(lost.of_faces));
 }
 
+auto topology_of(const HeldTriangles& held, const VertexPairs& chains) {
+    const auto joined = half_edge_pairs(chains, held.mesh().triangles.size());
+    const auto found = released([&] { return surface_topology(held.mesh(), joined); });
+    return std::tuple(found.vertices, found.components, found.boundary_edges, view(found.fans),
+                      view(found.pinched), view(found.crowded), view(found.clashing));
+}
+
+auto solid_figures_of(const HeldTriangles& held, const VertexPairs& solids, const Figures& area,
+                      const std::optional<Figures>& bulge, std::size_t count) {
+    const JoinedTriangles& mesh = held.mesh();
+    require_rows(solids.shape(0), mesh.triangles.size(), "solids");
+    require_rows(area.shape(0), mesh.triangles.size(), "area");
+    if (bulge) require_rows(bulge->shape(0), mesh.triangles.size(), "bulge");
+    for (const std::int32_t solid : std::span(solids.data(), solids.size()))
+        if (solid >= static_cast<std::int64_t>(count))
+            throw nb::value_error("solids has an index that is out of range");
+    const std::span<const SolidsBeside> beside{reinterpret_cast<const SolidsBeside*>(solids.data()),
+                                               solids.shape(0)};
+    const SolidParts parts{rows<double>(area), rows_if_any<double>(bulge)};
+    const auto found =
+        released([&] { return solid_figures(mesh.points, mesh.triangles, beside, parts, count); });
+    return std::tuple(view(found.triangles), view(found.area), view(found.volume), found.behind,
+                      found.before, found.both);
+}
+
+auto face_shapes_of(const HeldTriangles& held, const Figures& area, const Figures& alpha) {
+    require_rows(area.shape(0), held.mesh().triangles.size(), "area");
+    require_rows(alpha.shape(0), held.mesh().triangles.size(), "alpha");
+    const auto found =
+        released([&] { return face_shapes(held.mesh(), rows<double>(area), rows<double>(alpha)); });
+    return std::tuple(view(found.triangles), view(found.area), view(found.alpha_sum),
+                      view(found.alpha_min));
+}
+
+auto face_distances_of(const HeldTriangles& held, const Figures& distance,
+                       const Figures& mean_square, const Figures& area,
+                       const Vector<std::uint8_t>& marked) {
+    for (const std::size_t found :
+         {distance.shape(0), mean_square.shape(0), area.shape(0), marked.shape(0)})
+        require_rows(found, held.mesh().triangles.size(), "a figure of the triangles");
+    const auto found = released([&] {
+        return face_distances(held.mesh(), {rows<double>(distance), rows<double>(mean_square),
+                                            rows<double>(area), rows<std::uint8_t>(marked)});
+    });
+    return std::tuple(view(found.largest), view(found.worst), view(found.square),
+                      view(found.marked));
+}
+
 std::tuple<double, double, double, double> four_of(const Spread& spread) {
     return {spread.least, spread.mean, spread.largest, spread.deviation};
 }
@@ -170,6 +221,13 @@ void bind_joined_triangles(nb::module_& m) {
                       const VertexPairs&, const VertexPairs&, const Uses&>(),
              nb::arg("points"), nb::arg("triangles"), nb::arg("faces"), nb::arg("faces_in_all"),
              nb::arg("edges"), nb::arg("half_edges"), nb::arg("uses"))
+        .def(
+            "topology", &topology_of, nb::arg("chains"),
+            "How many vertices are used, components, and edges of one triangle; fans (n,) of "
+            "triangles at each vertex, as shared edges join them; vertices (k,) of two fans or "
+            "more, edges (k,) of three triangles or more, edges (k,) that both triangles run along "
+            "the same way.\n\nchains (k, 2): half-edges of edges of three triangles or more that "
+            "are joined.")
         .def("edge_figures", &edge_figures_of, nb::arg("sizes").none(), nb::arg("roots").none(),
              nb::arg("root_triangles").none(), nb::arg("slope"), nb::arg("most"),
              "By target sizes (n,), or where these depend on the direction roots (k, 6) of metrics "
@@ -180,6 +238,21 @@ void bind_joined_triangles(nb::module_& m) {
              "limit (f,) of that face, degrees, and the angle (k,); of the others the largest (f,) "
              "in each face, 0 without any; how many (f,) there are in all; the first edge where "
              "the largest of the others is, -1 for none.")
+        .def("face_shapes", &face_shapes_of, nb::arg("area"), nb::arg("alpha"),
+             "Of each face the triangles, the area, the sum of alpha and the least alpha, (f,) "
+             "each, "
+             "infinite without a triangle; by triangles of area (m,), alpha (m,).")
+        .def("face_distances", &face_distances_of, nb::arg("distance"), nb::arg("mean_square"),
+             nb::arg("area"), nb::arg("marked"),
+             "Of each face the largest distance, the first triangle where it is, the sum of mean "
+             "square times area, and how many triangles are marked, not 0, (f,) each; by triangles "
+             "(m,) all.")
+        .def("solid_figures", &solid_figures_of, nb::arg("solids"), nb::arg("area"),
+             nb::arg("bulge").none(), nb::arg("count"),
+             "Triangles, area and enclosed volume of so many solids, (count,) each, and how many "
+             "triangles have a solid behind them, before them, and both; solids (m, 2): behind and "
+             "before each triangle, below 0 for none; bulge (m,): volume between each triangle, if "
+             "it is curved, and its straight one.")
         .def("explained_areas", &explained_areas_of, nb::arg("area"), nb::arg("distance"),
              nb::arg("bend").none(), nb::arg("slant"),
              "Area (f,) that faces lose or win by the distance (m,) of their triangles, of an area "

@@ -212,6 +212,13 @@ class JoinedTriangles:
 
     def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], faces_in_all: int, edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
+    def topology(self, chains: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[int, int, int, Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+        """
+        How many vertices are used, components, and edges of one triangle; fans (n,) of triangles at each vertex, as shared edges join them; vertices (k,) of two fans or more, edges (k,) of three triangles or more, edges (k,) that both triangles run along the same way.
+
+        chains (k, 2): half-edges of edges of three triangles or more that are joined.
+        """
+
     def edge_figures(self, sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, roots: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None, root_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, slope: float, most: float) -> EdgeFigures:
         """
         By target sizes (n,), or where these depend on the direction roots (k, 6) of metrics at the corners root_triangles (m, 3); slope: what they may differ by along an edge, over its length, 0: not asked.
@@ -220,6 +227,21 @@ class JoinedTriangles:
     def angles_within_faces(self, limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], int]:
         """
         Of the edges between two triangles of one face those (k,) whose angle is beyond the limit (f,) of that face, degrees, and the angle (k,); of the others the largest (f,) in each face, 0 without any; how many (f,) there are in all; the first edge where the largest of the others is, -1 for none.
+        """
+
+    def face_shapes(self, area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], alpha: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        Of each face the triangles, the area, the sum of alpha and the least alpha, (f,) each, infinite without a triangle; by triangles of area (m,), alpha (m,).
+        """
+
+    def face_distances(self, distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Of each face the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (f,) each; by triangles (m,) all.
+        """
+
+    def solid_figures(self, solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], bulge: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, count: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, int, int]:
+        """
+        Triangles, area and enclosed volume of so many solids, (count,) each, and how many triangles have a solid behind them, before them, and both; solids (m, 2): behind and before each triangle, below 0 for none; bulge (m,): volume between each triangle, if it is curved, and its straight one.
         """
 
     def explained_areas(self, area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], bend: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, slant: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
@@ -246,42 +268,27 @@ def edge_sagittas(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     About twice the sagittas (k,) of segments (k, 2), rows of points (n, 3), by the angles between those that follow each other on one of the edges (k,); 0 where one is alone.
     """
 
-def triangle_fans(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-    """
-    Fans (n,) of triangles (m, 3) at each vertex. half_edges (k, 2): pairs that join their triangles along an edge, whichever way they run; -1 in the second column: none.
-    """
-
-def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-    """
-    Numbers (k,) of the edges whose two triangles run along them the same way.
-    """
-
 def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> int:
     """
     The first of so many vertices that belongs to none of triangles (m, 3), or -1.
     """
 
-def are_proper(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
+def is_sound(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, mid_points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)] | None, uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], surfaces: int | None) -> bool:
     """
-    Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no three of them twice, and no vertex left out?
+    Does all hold that ``SurfaceMesh.broken_invariant`` is asked for? Corners of triangles (m, 3) are all of points (n, 3), none twice in a triangle, no three of them twice, and no vertex left out; uv_triangles (m, 3) are rows of uv (k, 2), faces (m,) of so many surfaces; all numbers are finite, sizes (n,) positive.
     """
 
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
 
-def face_shapes(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], alpha: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Of ``count`` faces the triangles, the area, the sum of alpha and the least alpha, (count,) each, infinite without a triangle; by triangles of faces (m,), area (m,), alpha (m,).
-    """
-
-def face_distances(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
-    """
-    Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (count,) each; by triangles of faces (m,), all others (m,).
-    """
-
 def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Numbers of the ``count`` largest of values (n,), rising, or of all where there are no more; of equal ones those that come first. NaN is as large as infinity.
+    """
+
+def least_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Numbers of the ``count`` least of values (n,), the least first; of equal ones those that come first. NaN is not among them.
     """
 
 def spread(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[float, float, float, float]:

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.quality.figures.part import Part, Spread
+from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.lengths import QUASI_UNIT
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import Point
+from surfmesh.quality.measures.spread import Spread
 
 
 @dataclass(frozen=True, kw_only=True)

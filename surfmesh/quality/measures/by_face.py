@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core import quality as core
 from surfmesh.quality.measures.face_rows import (
     FaceColumns,
     FaceDeviations,
@@ -25,7 +24,7 @@ def by_face(measured: Measurements) -> FaceRows:
     count = len(numbers)
     if not count:
         return FaceRows()
-    triangles, area, alpha_sum, alpha_min = core.face_shapes(rows, shape.area, shape.alpha, count)
+    triangles, area, alpha_sum, alpha_min = measured.joined.face_shapes(shape.area, shape.alpha)
     limits: dict[int, list[str]] = {}
     for limit in measured.limits:
         limits.setdefault(limit.face, []).append(str(limit))
@@ -54,8 +53,8 @@ def _deviations(
     fit, folds, far = measured.deviation, measured.folds, measured.beyond_chord
     if fit is None or folds is None or far is None:
         return None
-    largest, worst, square, above = core.face_distances(
-        faces, fit.by_triangle, fit.mean_square, measured.shapes.area, far.view(np.uint8), count
+    largest, worst, square, above = measured.joined.face_distances(
+        fit.by_triangle, fit.mean_square, measured.shapes.area, far.view(np.uint8)
     )
     return FaceDeviations(
         largest,

@@ -13,7 +13,7 @@ from surfmesh._core.quality import EdgeFigures, JoinedTriangles
 from surfmesh.quality.measures.against_model import Unexpected, unexpected
 from surfmesh.quality.measures.area_and_volume import explained_areas, is_known
 from surfmesh.quality.measures.bodies import Bodies, bodies
-from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.measures.by_solid import SolidFigures, SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
 from surfmesh.quality.measures.coincident_edges import coincident_edges
 from surfmesh.quality.measures.curved import (
@@ -36,7 +36,7 @@ from surfmesh.quality.measures.proved_isotopy import isotopic
 from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.measures.solids import is_one_solid, shares_faces
+from surfmesh.quality.measures.spread import Spread
 from surfmesh.quality.measures.surface_to_mesh import (
     SurfaceDeviation,
     both_ways,
@@ -68,7 +68,7 @@ class Measurements:
         self.broken = mesh.broken_invariant()  # the first broken invariant, in words
         if self.broken and not _are_in_range(mesh):
             raise ValueError(f"this is not a mesh: {self.broken}")
-        self.finite = bool(np.isfinite(mesh.points).all())
+        self.finite = not self.broken or bool(np.isfinite(mesh.points).all())
         self.facts = mesh.facts or ModelFacts()
         self.tolerances = Tolerances.of(mesh)
         self.known = KnownSurfaces.of(mesh)
@@ -76,7 +76,7 @@ class Measurements:
     @cached_property
     def topology(self) -> Topology:
         """Of its triangles."""
-        return topology(self.mesh)
+        return topology(self.mesh, self.joined)
 
     @cached_property
     def unexpected(self) -> Unexpected:
@@ -114,6 +114,11 @@ class Measurements:
         """Of its triangles: alpha and angles of the straight ones between the corners."""
         found, curved = shapes(self.mesh), self.curved_shapes
         return found if curved is None else found._replace(area=curved.area)
+
+    @cached_property
+    def alpha_spread(self) -> Spread:
+        """Of alpha over its triangles."""
+        return Spread.of(self.shapes.alpha)
 
     @cached_property
     def metric_alpha(self) -> NDArray[np.float64] | None:
@@ -272,16 +277,26 @@ class Measurements:
         """The figures of each solid."""
         if not self.finite:
             return ()
+        return by_solid(self.mesh, self.solid_figures, self.topology)
+
+    @cached_property
+    def solid_figures(self) -> SolidFigures:
+        """What is added up of each solid."""
         curved = self.curved_shapes
         bulges = None if curved is None else curved.volume
-        return by_solid(self.mesh, self.shapes, self.topology, bulges)
+        return SolidFigures.of(self.mesh, self.joined, self.shapes.area, bulges)
+
+    @property
+    def shares_faces(self) -> bool:
+        """Do two solids of the model have a face in common?"""
+        return self.solid_figures.both > 0
 
     @cached_property
     def volume(self) -> float | None:
         """Of what the mesh encloses; where solids share faces, the sum over the solids."""
         if not self.finite or self.broken:
             return None
-        if shares_faces(self.mesh) or (len(self.solids) == 1 and is_one_solid(self.mesh)):
+        if self.shares_faces or self.solid_figures.is_whole(self.mesh):
             return volume_of_all(self.solids)
         if not self.topology.balanced:
             return None

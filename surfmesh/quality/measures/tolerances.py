@@ -92,9 +92,8 @@ class Tolerances(NamedTuple):
     @classmethod
     def of(cls, mesh: SurfaceMesh) -> Tolerances:
         """Of the mesh's ``promises``, or of its ``sizing`` on every face."""
-        count = max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
         given = tolerance_rows(mesh)
-        if given is None or 1 < len(given) < count or not len(given):
+        if given is None or not len(given) or 1 < len(given) < _faces(mesh):
             given = np.full((1, 3), np.nan)
         chord, angle = (np.where(np.isnan(given[:, k]), np.inf, given[:, k]) for k in (0, 1))
         least = np.where(np.isnan(given[:, 2]), 0.0, given[:, 2])
@@ -121,6 +120,11 @@ class Tolerances(NamedTuple):
     def base_angle(self) -> float | None:
         """Likewise, degrees."""
         return float(self.angle[0]) if self.uniform and np.isfinite(self.angle[0]) else None
+
+
+def _faces(mesh: SurfaceMesh) -> int:
+    """How many there are, by their numbers."""
+    return max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
 
 
 def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
