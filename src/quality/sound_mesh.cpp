@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "quality/triangle_fans.hpp"
 
@@ -29,10 +30,13 @@ bool are_finite(std::span<const double> values) {
 }
 
 bool are_in_range(std::span<const std::int32_t> numbers, std::size_t count) {
-    std::size_t most = 0;
-    for (const std::int32_t number : numbers)  // negative ones are larger than any
-        most = std::max<std::size_t>(most, static_cast<std::uint32_t>(number));
-    return numbers.empty() || most < count;
+    constexpr auto LARGEST = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+    if (count == 0) return numbers.empty();
+    const auto last = static_cast<std::uint32_t>(std::min(count - 1, LARGEST));
+    std::uint32_t signs = 0;  // several are looked at at once
+    for (const std::int32_t number : numbers)
+        signs |= static_cast<std::uint32_t>(number) | (last - static_cast<std::uint32_t>(number));
+    return static_cast<std::int32_t>(signs) >= 0;
 }
 
 }  // namespace surfmesh

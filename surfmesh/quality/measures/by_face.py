@@ -62,7 +62,7 @@ def _deviations(
         measured.mesh.points[measured.mesh.triangles[worst]].mean(axis=1),
         square=square,
         above=above,
-        folded=np.bincount(faces[folds.by_mesh], minlength=count),
+        folded=np.bincount(faces[folds.by_mesh] if folds.found else faces[:0], minlength=count),
     )
 
 

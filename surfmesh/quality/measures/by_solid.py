@@ -55,6 +55,10 @@ class SolidFigures(NamedTuple):
         count = max(int(mesh.solid_ids.max(initial=-1)) + 1, len(exact))
         return cls(*joined.solid_figures(mesh.solid_ids, area, bulges, count))
 
+    def is_around_all(self, mesh: SurfaceMesh) -> bool:
+        """Does a solid lie behind or before every triangle?"""
+        return self.behind + self.before - self.both == len(mesh.triangles)
+
     def is_whole(self, mesh: SurfaceMesh) -> bool:
         """Do all triangles lie around one solid, which is behind them?"""
         count = len(mesh.triangles)

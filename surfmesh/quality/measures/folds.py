@@ -79,9 +79,7 @@ def folds(known: KnownSurfaces, cosine: NDArray[np.float32]) -> Folds:
         misplaced[some] = np.where(flat, np.where(on, from_image, 0.0).max(axis=1), 0.0)
         nearest = max(nearest, float(deviation[on & flat[:, None]].max(initial=0.0)))
     by_mesh = folded & ~by_surface
-    return Folds(
-        by_mesh, by_surface, cosine, off_surface, misplaced, nearest, radius, len(bad)
-    )
+    return Folds(by_mesh, by_surface, cosine, off_surface, misplaced, nearest, radius, len(bad))
 
 
 def _distances(

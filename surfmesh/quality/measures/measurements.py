@@ -25,8 +25,8 @@ from surfmesh.quality.measures.curved import (
 from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
-from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.joined import NumberedFaces, joined_triangles
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
 from surfmesh.quality.measures.lengths import SizeGrowth, edge_figures, size_growth
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
@@ -319,9 +319,7 @@ class Measurements:
         """(f,) how much area of each face the deviation explains, where exact ones are known."""
         if self.deviation is None or not self.has_exact_figures:
             return None
-        return explained_areas(
-            self.mesh, self.joined, self.shapes.area, self.deviation.by_triangle
-        )
+        return explained_areas(self.mesh, self.joined, self.shapes.area, self.deviation.by_triangle)
 
     @cached_property
     def crosses_itself(self) -> bool:

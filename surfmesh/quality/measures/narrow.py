@@ -44,9 +44,7 @@ def narrow_triangles(
     return NarrowTriangles(count, of_all.mean, of_all.least)
 
 
-def without_area(
-    mesh: SurfaceMesh, alpha: NDArray[np.float64], least: float
-) -> NDArray[np.bool_]:
+def without_area(mesh: SurfaceMesh, alpha: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
     """(m,) which triangles have none to speak of, for the face that they are on. least: of alpha,
     NaN where one is."""
     if least > DEGENERATE:
