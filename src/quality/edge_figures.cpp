@@ -13,9 +13,9 @@ namespace {
 
 /// The target sizes along an edge.
 struct SizesAlong {
-    double mean;   // at its ends, whatever their direction
-    double count;  // of them, one after the other, along the edge: its length in the metric
-    double apart;  // by how much those along it differ at its ends
+    double mean;       // at its ends, whatever their direction
+    double in_metric;  // the length of the edge, in those along it
+    double apart;      // by how much those along it differ at its ends
 };
 
 /// Sums over the edges of a face: those of which it is the first, and the others.
@@ -65,10 +65,10 @@ class EdgePass {
         SizesAlong along{};
         if (has_sizes()) {
             along = sizes_along(k, length);
-            found_.metric_lengths[k] = along.count;
+            found_.metric_lengths[k] = along.in_metric;
             note_change(k, along.apart / (growth_.slope * length));
         }
-        note_range(k, is_stretched() ? along.count : length);
+        note_range(k, is_stretched() ? along.in_metric : length);
         add_to_faces(k, length, along.mean);
     }
 
@@ -96,7 +96,7 @@ class EdgePass {
         found_.changes.steepest = static_cast<std::int64_t>(k);
     }
 
-    /// A vertex with an edge of no length in numbers has no range.
+    /// Where an edge has no length in numbers, ``ratios`` sees to its vertices.
     void note_range(std::size_t k, double length) {
         is_number_ &= length == length;
         for (const Vertex v : {mesh_.edges[k].lower, mesh_.edges[k].higher}) {

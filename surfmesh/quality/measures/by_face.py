@@ -10,6 +10,7 @@ from surfmesh.quality.measures.face_rows import (
     FaceRows,
 )
 from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.quality.measures.places import middles
 from surfmesh.quality.measures.tolerances import exceeds_angle
 
 
@@ -59,7 +60,7 @@ def _deviations(
     return FaceDeviations(
         largest,
         worst,
-        measured.mesh.points[measured.mesh.triangles[worst]].mean(axis=1),
+        middles(measured.mesh.points[measured.mesh.triangles[worst]]),
         square=square,
         above=above,
         folded=np.bincount(faces[folds.by_mesh] if folds.found else faces[:0], minlength=count),

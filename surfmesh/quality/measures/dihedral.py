@@ -10,7 +10,7 @@ from surfmesh._core import quality
 from surfmesh._core.quality import JoinedTriangles
 from surfmesh.accuracy.dihedral import SLACK
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
-from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.places import Point, as_point, middles
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 
@@ -66,6 +66,6 @@ def largest_angle(
     if edge is None:
         return None
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
-    place = as_point(mesh.points[mesh.edges[edge]].mean(axis=0))
+    place = as_point(middles(mesh.points[mesh.edges[edge]]))
     largest = float(dihedrals.largest.max())
     return (largest if math.isfinite(largest) else math.nan), (first, second), place

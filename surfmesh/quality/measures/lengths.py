@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.quality import EdgeFigures, JoinedTriangles
 from surfmesh.quality.measures.joined import joined_triangles
-from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.places import Point, as_point, middles
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 
@@ -57,5 +57,5 @@ def size_growth(mesh: SurfaceMesh, edges: EdgeFigures) -> SizeGrowth | None:
     steepest, largest, above = edges.changes
     if steepest < 0:
         return None
-    place = mesh.points[mesh.edges[steepest]].mean(axis=0)
+    place = middles(mesh.points[mesh.edges[steepest]])
     return SizeGrowth(above / len(mesh.edges), largest, as_point(place))

@@ -10,6 +10,8 @@ from surfmesh.geometry.components import components
 from surfmesh.quality.measures.joined import joined_triangles
 from surfmesh.result.surface_mesh import SurfaceMesh
 
+NO_CHAINS = np.empty((0, 2), np.int32)  # of half-edges along crowded edges
+
 
 class Topology(NamedTuple):
     """Counts and verdicts from connectivity alone; no coordinate is looked at."""
@@ -53,11 +55,10 @@ def topology(mesh: SurfaceMesh, joined: JoinedTriangles | None = None) -> Topolo
     joined: the mesh, where it is at hand.
     """
     joined = joined or joined_triangles(mesh)
-    found = joined.topology(np.empty((0, 2), np.int32))
-    crowded = _crowded_half_edges(mesh, found[5])
-    if len(found[5]):
-        found = joined.topology(_chains(*crowded))
-    vertices, pieces, free, fans, pinched, edges, clashing = found
+    vertices, pieces, free, fans, pinched, crowded, clashing = joined.topology(NO_CHAINS)
+    half_edges, along = _crowded_half_edges(mesh, crowded)
+    if len(crowded):
+        *_, fans, pinched, _, _ = joined.topology(_chains(half_edges, along))
     return Topology(
         vertices=vertices,
         edges=len(mesh.edges),
@@ -65,12 +66,12 @@ def topology(mesh: SurfaceMesh, joined: JoinedTriangles | None = None) -> Topolo
         components=pieces,
         boundary_edges=free,
         boundary_loops=_boundary_loops(mesh) if free else 0,
-        crowded_edges=edges,
+        crowded_edges=crowded,
         pinched_vertices=pinched,
         clashing_edges=clashing,
         fans=fans,
         balanced=bool(len(mesh.triangles)) and not free and not len(clashing)
-        and _is_balanced(mesh, *crowded),
+        and _is_balanced(mesh, half_edges, along),
     )  # fmt: skip
 
 

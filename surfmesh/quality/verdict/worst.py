@@ -6,7 +6,7 @@ import numpy as np
 
 from surfmesh._core.quality import least_values
 from surfmesh.errors import shown
-from surfmesh.quality.measures.places import Point
+from surfmesh.quality.measures.places import Point, middles
 from surfmesh.quality.measures.shape import Shapes, shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -47,7 +47,7 @@ def worst_triangles(
         *(angle[worst].tolist() for angle in (shape.alpha, shape.min_angle, shape.max_angle)),
         faces,
         map(names.__getitem__, faces),
-        map(tuple, mesh.points[corners].mean(axis=1).tolist()),
+        map(tuple, middles(mesh.points[corners]).tolist()),
         map(tuple, corners.tolist()),
     )
     return tuple(map(WorstTriangle, *columns))
