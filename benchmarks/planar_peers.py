@@ -24,7 +24,7 @@ import numpy as np
 
 import surfmesh as sm
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.quality.measures.lengths import QUASI_UNIT, edge_lengths, edge_sizes, metric_lengths
+from surfmesh.quality.measures.lengths import QUASI_UNIT, edge_figures
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.sizing.options.distance_size import DistanceSize
 
@@ -154,7 +154,7 @@ def _measure(request: dict) -> dict:
         sizes=size_law(plate, law, scale)(points),
     )
     shape = shapes(mesh)
-    unit = metric_lengths(mesh, edge_lengths(mesh), edge_sizes(mesh))
+    unit = edge_figures(mesh).metric_lengths
     return {
         "triangles": len(triangles),
         "alpha_mean": float(shape.alpha.mean()),

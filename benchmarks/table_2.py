@@ -22,7 +22,7 @@ from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.planar_segments import short_segments
 from surfmesh.meshing.patch.packing import packed_over
-from surfmesh.quality.measures.lengths import edge_lengths, edge_sizes, metric_lengths
+from surfmesh.quality.measures.lengths import edge_figures
 from surfmesh.quality.measures.shape import alpha
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.distance_size import DistanceSize
@@ -120,7 +120,7 @@ def mesh_figures(surface: Surface, sizing: sm.Sizing, optimise: bool) -> dict:
     }
     if not optimise:
         placed = _deviation(_placed_radii(surface, sizing))
-        unit = np.repeat(metric_lengths(mesh, edge_lengths(mesh), edge_sizes(mesh)), 2)
+        unit = np.repeat(edge_figures(mesh).metric_lengths, 2)
         around = np.bincount(mesh.edges.ravel(), unit) / np.bincount(mesh.edges.ravel())
         found |= {
             "max1": float(placed.max()),

@@ -8,19 +8,9 @@
 namespace surfmesh {
 namespace {
 
-// squared sine of the angle between two sides, or one at a pole: only rounding
-constexpr double NO_AREA = 1e-24;
 constexpr std::size_t HALF_EDGES_TOGETHER = 3 << 14;  // half-edges looked at together
 
 }  // namespace
-
-DihedralTurn dihedral_turn(Point3 a, Point3 b, Point3 c, Point3 d) {
-    const Point3 u = b - a, v = c - a, w = d - a;
-    const Point3 m = cross(u, v), n = cross(w, u);
-    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), mm = dot(m, m), nn = dot(n, n);
-    if (!(mm > NO_AREA * uu * vv && nn > NO_AREA * uu * ww)) return {0.0, 1.0};
-    return {norm(cross(m, n)), dot(m, n)};
-}
 
 double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d) {
     const auto [across, along] = dihedral_turn(a, b, c, d);

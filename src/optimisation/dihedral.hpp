@@ -13,8 +13,17 @@ struct DihedralTurn {
     double across, along;
 };
 
+/// Squared sine of the angle between two sides, or one at a pole: only rounding.
+inline constexpr double NO_DIHEDRAL_AREA = 1e-24;
+
 /// From the normal of a-b-c to that of b-a-d; none where one has no area.
-DihedralTurn dihedral_turn(Point3 a, Point3 b, Point3 c, Point3 d);
+inline DihedralTurn dihedral_turn(Point3 a, Point3 b, Point3 c, Point3 d) {
+    const Point3 u = b - a, v = c - a, w = d - a;
+    const Point3 m = cross(u, v), n = cross(w, u);
+    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), mm = dot(m, m), nn = dot(n, n);
+    if (!(mm > NO_DIHEDRAL_AREA * uu * vv && nn > NO_DIHEDRAL_AREA * uu * ww)) return {0.0, 1.0};
+    return {norm(cross(m, n)), dot(m, n)};
+}
 
 /// Radians between the normals of a-b-c and b-a-d; 0 where one has no area.
 double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d);

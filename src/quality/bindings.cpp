@@ -11,7 +11,6 @@
 #include "binding/arrays.hpp"
 #include "quality/dense_deviation.hpp"
 #include "quality/enclosed_volumes.hpp"
-#include "quality/explained_losses.hpp"
 #include "quality/face_creases.hpp"
 #include "quality/far_corners.hpp"
 #include "quality/hidden_bounds.hpp"
@@ -372,7 +371,7 @@ void bind_hidden_bounds(nb::module_& m) {
         "the triangle in (u, v) counts. Without area it hides nothing.");
 }
 
-void bind_area_and_volume(nb::module_& m) {
+void bind_enclosed_volumes(nb::module_& m) {
     m.def(
         "enclosed_volumes",
         [](const Points3& points, const Triangles& triangles, const Numbers& solid,
@@ -391,30 +390,12 @@ void bind_area_and_volume(nb::module_& m) {
         nb::arg("points"), nb::arg("triangles"), nb::arg("solid"), nb::arg("apexes"),
         "Volumes (s,) that triangles (k, 3) around solid (k,), facing outwards, enclose.\n\n"
         "apexes (s, 3): a point near each solid, which the tetrahedra share that are summed up.");
-    m.def(
-        "explained_losses",
-        [](const Points3& points, const Triangles& triangles, const Vector<double>& area,
-           const Vector<double>& distance, double slant) {
-            require_corners(triangles, points.shape(0), "triangles");
-            require_rows(area.shape(0), triangles.shape(0), "area");
-            require_rows(distance.shape(0), triangles.shape(0), "distance");
-            ExplainedLosses found;
-            {
-                const nb::gil_scoped_release released;
-                found = explained_losses(rows<Point3>(points), rows<TriangleCorners>(triangles),
-                                         rows<double>(area), rows<double>(distance), slant);
-            }
-            return std::pair(view(found.area), view(found.volume));
-        },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("area"), nb::arg("distance"),
-        nb::arg("slant"),
-        "Area and volume (m,) that triangles (m, 3) of an area (m,) lose or win by their distance "
-        "(m,) from the surface.\n\nslant: of (distance / height)^2, what the area may differ by.");
 }
 
 }  // namespace
 
 void bind_mesh_edges(nb::module_& m);
+void bind_joined_triangles(nb::module_& m);
 void bind_figures(nb::module_& m);
 
 void bind_quality(nb::module_& m) {
@@ -433,7 +414,8 @@ void bind_quality(nb::module_& m) {
     bind_surface_search(m);
     bind_solids(m);
     bind_hidden_bounds(m);
-    bind_area_and_volume(m);
+    bind_enclosed_volumes(m);
+    bind_joined_triangles(m);
     bind_mesh_edges(m);
     bind_figures(m);
 }

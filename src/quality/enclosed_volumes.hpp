@@ -5,6 +5,7 @@
 // summed up without the rounding of long sums; NaN or infinite where a coordinate is.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -18,5 +19,25 @@ namespace surfmesh {
 Array<double> enclosed_volumes(std::span<const Point3> points,
                                std::span<const TriangleCorners> triangles,
                                std::span<const std::int32_t> solid, std::span<const Point3> apexes);
+
+/// The solid behind a triangle and the one before it, or NIL.
+using SolidsBeside = std::array<std::int32_t, 2>;
+
+/// Of each solid; a triangle between two of them counts for both.
+struct SolidFigures {
+    Array<std::int64_t> triangles;
+    Array<double> area, volume;
+    std::int64_t behind = 0, before = 0, both = 0;  // triangles with a solid there
+};
+
+/// Figures of triangles: how much is between each, if it is curved, and its straight one; or none.
+struct SolidParts {
+    std::span<const double> area, bulge;
+};
+
+SolidFigures solid_figures(std::span<const Point3> points,
+                           std::span<const TriangleCorners> triangles,
+                           std::span<const SolidsBeside> beside, const SolidParts& parts,
+                           std::size_t solids);
 
 }  // namespace surfmesh

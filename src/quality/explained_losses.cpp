@@ -1,6 +1,6 @@
 #include "quality/explained_losses.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 namespace surfmesh {
@@ -8,27 +8,23 @@ namespace {
 
 constexpr double TINY = std::numeric_limits<double>::min();  // no division by zero
 
-/// The larger of two, NaN where one of them is.
-double larger_of(double a, double b) { return b > a || b != b ? b : a; }
-
 }  // namespace
 
-ExplainedLosses explained_losses(std::span<const Point3> points,
-                                 std::span<const TriangleCorners> triangles,
-                                 std::span<const double> area, std::span<const double> distance,
-                                 double slant) {
-    ExplainedLosses lost{Array<double>(triangles.size()), Array<double>(triangles.size())};
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const TriangleCorners& t = triangles[k];
-        const Point3 a = points[t.a], b = points[t.b], c = points[t.c];
+Array<double> explained_areas(const JoinedTriangles& mesh, const LossFigures& figures,
+                              double slant) {
+    Array<double> lost(mesh.faces_in_all, 0.0);
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+        const TriangleCorners& t = mesh.triangles[k];
+        const Point3 a = mesh.points[t.a], b = mesh.points[t.b], c = mesh.points[t.c];
         const Point3 ab = b - a, bc = c - b, ca = a - c;
-        const double longest =
-            std::sqrt(larger_of(larger_of(dot(ab, ab), dot(bc, bc)), dot(ca, ca)));
-        const double height = 2.0 * area[k] / larger_of(longest, TINY);
-        const double ratio = distance[k] / larger_of(height, TINY),
-                     square = slant * (ratio * ratio);
-        lost.area[k] = area[k] * (square > 1.0 ? 1.0 : square);
-        lost.volume[k] = area[k] * distance[k];
+        const double area = figures.area[k], distance = figures.distance[k];
+        // the height is 2 area / longest
+        const double longest = std::max(std::max(dot(ab, ab), dot(bc, bc)), dot(ca, ca)),
+                     square = slant * (distance * distance) * longest /
+                              std::max(4.0 * area * area, TINY),
+                     bent = figures.bend.empty() ? 0.0 : distance * figures.bend[k],
+                     fraction = std::min(square, 1.0) + bent;
+        lost[mesh.faces[k]] += area * std::min(fraction, 1.0);
     }
     return lost;
 }

@@ -1,25 +1,26 @@
-// How much area and volume triangles lose or win by their distance from the surface.
+// How much area the faces of a finished mesh lose or win by the distance of its triangles from the
+// surface.
 //
-// In: triangles, their areas and distances. Out: of the area of a triangle of height h at the
-// distance d about (4 d / h)^2, all of it at most; of the volume area times distance.
+// In: triangles on faces, their areas and distances. Out: of the area of a triangle of height h at
+// the distance d about (4 d / h)^2, all of it at most; by face. Nothing changes.
 #pragma once
 
 #include <span>
 
-#include "space/box_tree.hpp"
+#include "quality/joined_triangles.hpp"
 #include "values/array.hpp"
-#include "values/point.hpp"
 
 namespace surfmesh {
 
-struct ExplainedLosses {
-    Array<double> area, volume;  // of each triangle
+/// Figures of the triangles that tell what is lost.
+struct LossFigures {
+    std::span<const double> area, distance;
+    std::span<const double> bend;  // twice the largest curvature of a quadratic triangle's sides: a
+                                   // surface at a distance has so much more area; empty: straight
 };
 
-/// area, distance: of each triangle; slant: of (d / h)^2, what the area may differ by, of its own.
-ExplainedLosses explained_losses(std::span<const Point3> points,
-                                 std::span<const TriangleCorners> triangles,
-                                 std::span<const double> area, std::span<const double> distance,
-                                 double slant);
+/// slant: of (d / h)^2, what the area of a triangle may differ by, of its own.
+Array<double> explained_areas(const JoinedTriangles& mesh, const LossFigures& figures,
+                              double slant);
 
 }  // namespace surfmesh

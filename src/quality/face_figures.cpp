@@ -1,78 +1,67 @@
 #include "quality/face_figures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace surfmesh {
+namespace {
 
-FaceShapes face_shapes(std::span<const std::int32_t> faces, std::span<const double> area,
-                       std::span<const double> alpha, std::size_t count) {
-    FaceShapes found{Array<std::int64_t>(count, 0), Array<double>(count, 0.0),
-                     Array<double>(count, 0.0),
-                     Array<double>(count, std::numeric_limits<double>::infinity())};
-    for (std::size_t t = 0; t < faces.size(); ++t) {
-        const std::int32_t face = faces[t];
-        ++found.triangles[face];
-        found.area[face] += area[t];
-        found.alpha_sum[face] += alpha[t];
-        if (alpha[t] < found.alpha_min[face]) found.alpha_min[face] = alpha[t];
+/// Sums that belong together lie together.
+struct ShapeSums {
+    std::int64_t triangles = 0;
+    double area = 0.0, alpha = 0.0, least = std::numeric_limits<double>::infinity();
+};
+
+struct DistanceSums {
+    double largest = 0.0, square = 0.0;
+    std::int64_t marked = 0;
+    std::int32_t worst = 0;
+    bool is_known = false;  // has the face had a triangle?
+};
+
+}  // namespace
+
+FaceShapes face_shapes(const JoinedTriangles& mesh, std::span<const double> area,
+                       std::span<const double> alpha) {
+    Array<ShapeSums> sums(mesh.faces_in_all);
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+        ShapeSums& own = sums[mesh.faces[t]];
+        ++own.triangles;
+        own.area += area[t];
+        own.alpha += alpha[t];
+        if (alpha[t] < own.least) own.least = alpha[t];
+    }
+    FaceShapes found;
+    for (const ShapeSums& own : sums) {
+        found.triangles.push_back(own.triangles);
+        found.area.push_back(own.area);
+        found.alpha_sum.push_back(own.alpha);
+        found.alpha_min.push_back(own.least);
     }
     return found;
 }
 
-FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<const double> distance,
-                             std::span<const double> mean_square, std::span<const double> area,
-                             std::span<const std::uint8_t> marked, std::size_t count) {
-    FaceDistances found{Array<double>(count, 0.0), Array<std::int32_t>(count, 0),
-                        Array<double>(count, 0.0), Array<std::int64_t>(count, 0)};
-    Array<std::uint8_t> is_known(count, 0);  // has the face had a triangle?
-    for (std::size_t t = 0; t < faces.size(); ++t) {
-        const std::int32_t face = faces[t];
-        const double d = distance[t];
-        if (std::isnan(d) || d > found.largest[face] || is_known[face] == 0) {
-            is_known[face] = 1;
-            found.largest[face] = d;
-            found.worst[face] = std::isnan(d) ? 0 : static_cast<std::int32_t>(t);
+FaceDistances face_distances(const JoinedTriangles& mesh, const TriangleDistances& of) {
+    Array<DistanceSums> sums(mesh.faces_in_all);
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+        DistanceSums& own = sums[mesh.faces[t]];
+        const double d = of.distance[t];
+        if (std::isnan(d) || d > own.largest || !own.is_known) {
+            own.is_known = true;
+            own.largest = d;
+            own.worst = std::isnan(d) ? 0 : static_cast<std::int32_t>(t);
         }
-        found.square[face] += area[t] * mean_square[t];
-        found.marked[face] += marked[t] != 0 ? 1 : 0;
+        own.square += of.area[t] * of.mean_square[t];
+        own.marked += of.marked[t] != 0 ? 1 : 0;
+    }
+    FaceDistances found;
+    for (const DistanceSums& own : sums) {
+        found.largest.push_back(own.largest);
+        found.worst.push_back(own.worst);
+        found.square.push_back(own.square);
+        found.marked.push_back(own.marked);
     }
     return found;
-}
-
-FaceAngles face_angles(std::span<const std::int32_t> faces, std::span<const double> degrees,
-                       std::span<const double> most, std::size_t count) {
-    FaceAngles found{Array<double>(count, 0.0), Array<std::int64_t>(count, 0),
-                     Array<std::int64_t>(count, 0)};
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-        const std::int32_t face = faces[k];
-        double& largest = found.largest[face];
-        if (degrees[k] > largest || std::isnan(degrees[k])) largest = degrees[k];
-        found.above[face] += degrees[k] > most[most.size() == 1 ? 0 : face] ? 1 : 0;
-        ++found.number[face];
-    }
-    return found;
-}
-
-Array<double> face_edge_means(std::span<const std::int32_t> faces,
-                              std::span<const EdgeTable::Sides> half_edges,
-                              std::span<const double> values, std::size_t count) {
-    Array<double> first_sum(count, 0.0), second_sum(count, 0.0);
-    Array<std::int64_t> number(count, 0);
-    for (std::size_t k = 0; k < half_edges.size(); ++k) {
-        const auto [first, second] = half_edges[k];
-        const std::int32_t face = faces[first / 3];
-        first_sum[face] += values[k];
-        ++number[face];
-        if (second == NIL || faces[second / 3] == face) continue;
-        second_sum[faces[second / 3]] += values[k];
-        ++number[faces[second / 3]];
-    }
-    for (std::size_t f = 0; f < count; ++f)
-        first_sum[f] = (first_sum[f] + second_sum[f]) /
-                       static_cast<double>(std::max<std::int64_t>(number[f], 1));
-    return first_sum;
 }
 
 }  // namespace surfmesh

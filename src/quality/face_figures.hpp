@@ -1,14 +1,13 @@
-// The figures of each face in one pass over the triangles, or over the edges, of a finished mesh.
+// The figures of each face in one pass over the triangles of a finished mesh.
 //
-// In: the face of each triangle, a number from 0 on, and what is known of each triangle or edge.
-// Out: sums and extremes of each face, added up in the order of the triangles or edges.
+// In: triangles on faces, and what is known of each triangle. Out: sums and extremes of each face,
+// added up in the order of the triangles.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "quality/measured_mesh.hpp"
-#include "space/edge_table.hpp"
+#include "quality/joined_triangles.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
@@ -18,8 +17,8 @@ struct FaceShapes {
     Array<double> area, alpha_sum, alpha_min;  // alpha_min is infinite where there is no triangle
 };
 
-FaceShapes face_shapes(std::span<const std::int32_t> faces, std::span<const double> area,
-                       std::span<const double> alpha, std::size_t count);
+FaceShapes face_shapes(const JoinedTriangles& mesh, std::span<const double> area,
+                       std::span<const double> alpha);
 
 struct FaceDistances {
     Array<double> largest;       // NaN where one is, 0 without triangles
@@ -28,24 +27,11 @@ struct FaceDistances {
     Array<std::int64_t> marked;  // how many triangles are
 };
 
-/// marked: of each triangle, not 0 where it counts.
-FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<const double> distance,
-                             std::span<const double> mean_square, std::span<const double> area,
-                             std::span<const std::uint8_t> marked, std::size_t count);
-
-/// Of each face.
-struct FaceAngles {
-    Array<double> largest;              // 0 without edges
-    Array<std::int64_t> above, number;  // edges whose angle is above that of the face; all edges
+struct TriangleDistances {
+    std::span<const double> distance, mean_square, area;
+    std::span<const std::uint8_t> marked;  // not 0 where it counts
 };
 
-/// By edges within faces, and the angles across them. most: of each face, or one of all.
-FaceAngles face_angles(std::span<const std::int32_t> faces, std::span<const double> degrees,
-                       std::span<const double> most, std::size_t count);
-
-/// The mean of a value over the edges of each face; an edge between two faces counts for both.
-Array<double> face_edge_means(std::span<const std::int32_t> faces,
-                              std::span<const EdgeTable::Sides> half_edges,
-                              std::span<const double> values, std::size_t count);
+FaceDistances face_distances(const JoinedTriangles& mesh, const TriangleDistances& of);
 
 }  // namespace surfmesh

@@ -6,7 +6,6 @@
 #include "binding/arrays.hpp"
 #include "binding/released.hpp"
 #include "quality/corner_places.hpp"
-#include "quality/face_figures.hpp"
 #include "quality/histogram.hpp"
 #include "quality/largest_values.hpp"
 #include "quality/mesh_arguments.hpp"
@@ -16,68 +15,6 @@
 namespace surfmesh::binding {
 
 namespace {
-
-using FaceNumbers = Vector<std::int32_t>;
-
-void bind_face_triangles(nb::module_& m) {
-    m.def(
-        "face_shapes",
-        [](const FaceNumbers& faces, const Vector<double>& area, const Vector<double>& alpha,
-           std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(area.shape(0), faces.shape(0), "area");
-            require_rows(alpha.shape(0), faces.shape(0), "alpha");
-            const auto found = released([&] {
-                return face_shapes(rows<std::int32_t>(faces), rows<double>(area),
-                                   rows<double>(alpha), count);
-            });
-            return std::tuple(view(found.triangles), view(found.area), view(found.alpha_sum),
-                              view(found.alpha_min));
-        },
-        nb::arg("faces"), nb::arg("area"), nb::arg("alpha"), nb::arg("count"),
-        "Of ``count`` faces the triangles, the area, the sum of alpha and the least alpha, "
-        "(count,) "
-        "each, infinite without a triangle; by triangles of faces (m,), area (m,), alpha (m,).");
-    m.def(
-        "face_distances",
-        [](const FaceNumbers& faces, const Vector<double>& distance,
-           const Vector<double>& mean_square, const Vector<double>& area,
-           const Vector<std::uint8_t>& marked, std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            for (const std::size_t found :
-                 {distance.shape(0), mean_square.shape(0), area.shape(0), marked.shape(0)})
-                require_rows(found, faces.shape(0), "a figure of the triangles");
-            const auto found = released([&] {
-                return face_distances(rows<std::int32_t>(faces), rows<double>(distance),
-                                      rows<double>(mean_square), rows<double>(area),
-                                      rows<std::uint8_t>(marked), count);
-            });
-            return std::tuple(view(found.largest), view(found.worst), view(found.square),
-                              view(found.marked));
-        },
-        nb::arg("faces"), nb::arg("distance"), nb::arg("mean_square"), nb::arg("area"),
-        nb::arg("marked"), nb::arg("count"),
-        "Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean "
-        "square times area, and how many triangles are marked, not 0, (count,) each; by triangles "
-        "of faces (m,), all others (m,).");
-    m.def(
-        "face_angles",
-        [](const FaceNumbers& faces, const Vector<double>& degrees, const Vector<double>& most,
-           std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(degrees.shape(0), faces.shape(0), "degrees");
-            if (most.shape(0) != 1) require_rows(most.shape(0), count, "most");
-            const auto found = released([&] {
-                return face_angles(rows<std::int32_t>(faces), rows<double>(degrees),
-                                   rows<double>(most), count);
-            });
-            return std::tuple(view(found.largest), view(found.above), view(found.number));
-        },
-        nb::arg("faces"), nb::arg("degrees"), nb::arg("most"), nb::arg("count"),
-        "Of ``count`` faces the largest angle across an edge within, 0 without any, how many are "
-        "above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within "
-        "faces (k,), degrees (k,).");
-}
 
 void require_vertices(const Triangles& triangles, std::size_t count, const char* what) {
     require_indices(std::span(triangles.data(), triangles.size()), count, what);
@@ -142,6 +79,14 @@ void bind_order(nb::module_& m) {
         "Numbers of the ``count`` largest of values (n,), rising, or of all where there are no "
         "more; of equal ones those that come first. NaN is as large as infinity.");
     m.def(
+        "least_values",
+        [](const Vector<double>& values, std::size_t count) {
+            return view(released([&] { return least_values(rows<double>(values), count); }));
+        },
+        nb::arg("values"), nb::arg("count"),
+        "Numbers of the ``count`` least of values (n,), the least first; of equal ones those that "
+        "come first. NaN is not among them.");
+    m.def(
         "spread",
         [](const Vector<double>& values) {
             const nb::gil_scoped_release released;
@@ -167,28 +112,8 @@ void bind_order(nb::module_& m) {
 }  // namespace
 
 void bind_figures(nb::module_& m) {
-    bind_face_triangles(m);
     bind_order(m);
     bind_places(m);
-    m.def(
-        "face_edge_means",
-        [](const FaceNumbers& faces, const Matrix<std::int32_t, 2>& half_edges,
-           const Vector<double>& values, std::size_t count) {
-            require_indices(rows<std::int32_t>(faces), count, "faces");
-            require_rows(values.shape(0), half_edges.shape(0), "values");
-            const auto sides = half_edge_pairs(half_edges, faces.shape(0));
-            Array<double> found;
-            {
-                const nb::gil_scoped_release released;
-                found =
-                    face_edge_means(rows<std::int32_t>(faces), sides, rows<double>(values), count);
-            }
-            return view(found);
-        },
-        nb::arg("faces"), nb::arg("half_edges"), nb::arg("values"), nb::arg("count"),
-        "Mean (count,) of values (k,) over the edges of each face, 0 where there is none; "
-        "half_edges (k, 2): the triangles beside them are of faces (m,), -1 in the second column "
-        "for none. An edge between two faces counts for both.");
     m.def(
         "binned_counts",
         [](const Vector<double>& values, double low, double high, std::size_t bins) {

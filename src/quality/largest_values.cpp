@@ -53,6 +53,10 @@ bool is_larger_or_earlier(const Numbered& a, const Numbered& b) {
     return a.value != b.value ? a.value > b.value : a.number < b.number;
 }
 
+bool is_less_or_earlier(const Numbered& a, const Numbered& b) {
+    return a.value != b.value ? a.value < b.value : a.number < b.number;
+}
+
 /// The value at place ``count`` - 1 of an order, and the one before it, itself if there is none.
 struct LastTwo {
     double before, last;
@@ -83,6 +87,18 @@ Array<std::int32_t> largest_values(std::span<const double> values, std::size_t c
     const Array<Numbered>& found = foremost.found();
     for (std::size_t k = 0; k < count; ++k) numbers[k] = found[k].number;
     std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+Array<std::int32_t> least_values(std::span<const double> values, std::size_t count) {
+    if (count == 0) return {};
+    Foremost<Numbered, decltype(&is_less_or_earlier)> foremost(count, is_less_or_earlier);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isnan(values[i])) foremost.add({values[i], static_cast<std::int32_t>(i)});
+    const Array<Numbered>& found = foremost.found();
+    std::sort(found.begin(), found.end(), is_less_or_earlier);
+    Array<std::int32_t> numbers;
+    for (const Numbered& one : found) numbers.push_back(one.number);
     return numbers;
 }
 

@@ -57,9 +57,9 @@ Array<double> edge_sagittas(std::span<const Point3> points,
 }
 
 RimLosses rim_losses(const JoinedTriangles& mesh, const Sagittas& sagittas,
-                     std::span<const double> distance, double sharpest, std::size_t faces) {
+                     std::span<const double> distance, double sharpest) {
     const Array<double> sagitta = sagittas_of_rims(mesh, sagittas);
-    RimLosses lost{Array<double>(sagitta.size(), 0.0), Array<double>(faces, 0.0)};
+    RimLosses lost{Array<double>(sagitta.size(), 0.0), Array<double>(mesh.faces_in_all, 0.0)};
     const std::span<const Vertex> corners = corners_in_a_row(mesh.triangles);
     for (std::size_t k = 0; k < sagitta.size(); ++k) {
         if (sagitta[k] == NO_RIM) continue;

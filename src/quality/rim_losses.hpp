@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <span>
 
-#include "space/edge_table.hpp"
+#include "quality/joined_triangles.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -29,15 +29,6 @@ namespace surfmesh {
 Array<double> edge_sagittas(std::span<const Point3> points,
                             std::span<const std::array<Vertex, 2>> segments,
                             std::span<const std::int32_t> edges);
-
-/// Triangles of faces, and who shares their edges.
-struct JoinedTriangles {
-    std::span<const Point3> points;
-    std::span<const TriangleCorners> triangles;
-    std::span<const std::int32_t> faces;
-    std::span<const EdgeTable::Sides> half_edges;
-    std::span<const std::int32_t> uses;
-};
 
 /// Sagittas of edges, by their rows: the larger where one has two; NIL stands for none.
 struct Sagittas {
@@ -52,6 +43,6 @@ struct RimLosses {
 
 /// Rims are edges of one triangle, and those with a sagitta. distance: of the triangles.
 RimLosses rim_losses(const JoinedTriangles& mesh, const Sagittas& sagittas,
-                     std::span<const double> distance, double sharpest, std::size_t faces);
+                     std::span<const double> distance, double sharpest);
 
 }  // namespace surfmesh

@@ -158,16 +158,4 @@ bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::siz
     return false;
 }
 
-bool are_proper(std::span<const TriangleCorners> triangles, std::size_t vertices) {
-    Array<std::uint8_t> is_used(vertices, 0);
-    for (const auto& [a, b, c] : triangles) {
-        for (const Vertex v : {a, b, c})
-            if (v < 0 || static_cast<std::size_t>(v) >= vertices) return false;
-        if (a == b || b == c || c == a) return false;
-        is_used[a] = is_used[b] = is_used[c] = 1;
-    }
-    return std::find(is_used.begin(), is_used.end(), 0) == is_used.end() &&
-           !has_repeated_triangles(triangles, vertices);
-}
-
 }  // namespace surfmesh

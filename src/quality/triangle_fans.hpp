@@ -30,9 +30,6 @@ Array<std::int32_t> clashing_edges(std::span<const TriangleCorners> triangles,
 /// The first vertex that belongs to no triangle, or NIL.
 Vertex unused_vertex(std::span<const TriangleCorners> triangles, std::size_t vertices);
 
-/// Are all vertices in range and used, no corner twice in a triangle, no triangle twice?
-bool are_proper(std::span<const TriangleCorners> triangles, std::size_t vertices);
-
 /// Have two triangles the same three corners, in any order?
 bool has_repeated_triangles(std::span<const TriangleCorners> triangles, std::size_t vertices);
 

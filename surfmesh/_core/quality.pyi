@@ -16,11 +16,6 @@ def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(s
     Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.
     """
 
-def prepared_surfaces(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list:
-    """
-    The surfaces, with their points and first derivatives to rounding, for many places: a spline is made polynomials where the triangles, those of faces (m,), are many enough.
-    """
-
 def far_corners(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Corners (k,), 3 t + i for corner i of triangle t, farther than limit from r(u, v): of each row of uv that a triangle uses the last, but of those of which left_out (m,) is 1.
@@ -32,7 +27,7 @@ def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dic
     """
     Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing.
 
-    edges (k, 2): the half-edges of each, -1 where there is one; area (m,); in_plane (m,): as ``plane_triangles`` has it.
+    edges (k, 2): half-edges and those that share what is found, or -1; area (m,); in_plane (m,): as ``plane_triangles`` has it.
     """
 
 def plane_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
@@ -167,36 +162,105 @@ def enclosed_volumes(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
     apexes (s, 3): a point near each solid, which the tetrahedra share that are summed up.
     """
 
-def explained_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slant: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Area and volume (m,) that triangles (m, 3) of an area (m,) lose or win by their distance (m,) from the surface.
+class EdgeFigures:
+    """Lengths of the edges (ne,) of a mesh."""
 
-    slant: of (distance / height)^2, what the area may differ by.
+    @property
+    def lengths(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(ne,) model units"""
+
+    @property
+    def metric_lengths(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(ne,) in target sizes; (0,) without these"""
+
+    @property
+    def length(self) -> tuple[float, float, float, float]:
+        """
+        Least, mean, largest and standard deviation of ``lengths``, NaN where one is, or none.
+        """
+
+    @property
+    def metric_length(self) -> tuple[float, float, float, float]:
+        """The same of ``metric_lengths``."""
+
+    @property
+    def ratios(self) -> tuple[float, float]:
+        """
+        Longest over shortest edge at a vertex: the largest, and what 99 of 100 are below; in target sizes where these depend on the direction. NaN without edges of a length.
+        """
+
+    @property
+    def changes(self) -> tuple[int, float, int]:
+        """
+        The first edge, -1 for none, along which the difference of sizes is largest over slope times length, that quotient, and how many quotients are above ``most``.
+        """
+
+    @property
+    def face_lengths(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        (f,) mean of the lengths of the edges of each face, 0 without any; an edge between two faces counts for both
+        """
+
+    @property
+    def face_sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(f,) likewise of their target sizes"""
+
+class JoinedTriangles:
+    """
+    Triangles (m, 3) of points (n, 3) on ``faces_in_all`` faces (m,), with their edge table: edges (ne, 2), half_edges (ne, 2), uses (ne,). Kept, not copied, and looked at once.
     """
 
-def edge_lengths(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
-    """Length (k,) of edges (k, 2) between points (n, 3)."""
+    def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], faces_in_all: int, edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-def edge_sizes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) they are apart.
-    """
+    def topology(self, chains: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[int, int, int, Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+        """
+        How many vertices are used, components, and edges of one triangle; fans (n,) of triangles at each vertex, as shared edges join them; vertices (k,) of two fans or more, edges (k,) of three triangles or more, edges (k,) that both triangles run along the same way.
 
-def size_changes(apart: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: float, most: float) -> tuple[int, float, int]:
-    """
-    The first edge, -1 for none, along which the quotient of apart (k,) and slope times lengths (k,) is largest, 0 where it is not finite, that quotient, and how many are above ``most``.
-    """
+        chains (k, 2): half-edges of edges of three triangles or more that are joined.
+        """
 
-def edge_extremes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each vertex; 0 and infinite where there is none.
-    """
+    def edge_figures(self, sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, roots: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None, root_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, slope: float, most: float) -> EdgeFigures:
+        """
+        By target sizes (n,), or where these depend on the direction roots (k, 6) of metrics at the corners root_triangles (m, 3); slope: what they may differ by along an edge, over its length, 0: not asked.
+        """
 
-def angles_within_faces(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Numbers (k,) of the edges between two triangles of one face, that face (k,), and the angle (k,) between their normals, degrees.
+    def angles_within_faces(self, limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], int]:
+        """
+        Of the edges between two triangles of one face those (k,) whose angle is beyond the limit (f,) of that face, degrees, and the angle (k,); of the others the largest (f,) in each face, 0 without any; how many (f,) there are in all; the first edge where the largest of the others is, -1 for none.
+        """
 
-    points (n, 3), triangles (m, 3), faces (m,); half_edges (ne, 2) and uses (ne,) of the edge table.
+    def face_shapes(self, area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], alpha: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        Of each face the triangles, the area, the sum of alpha and the least alpha, (f,) each, infinite without a triangle; by triangles of area (m,), alpha (m,).
+        """
+
+    def face_distances(self, distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Of each face the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (f,) each; by triangles (m,) all.
+        """
+
+    def solid_figures(self, solids: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], bulge: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, count: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, int, int]:
+        """
+        Triangles, area and enclosed volume of so many solids, (count,) each, and how many triangles have a solid behind them, before them, and both; solids (m, 2): behind and before each triangle, below 0 for none; bulge (m,): volume between each triangle, if it is curved, and its straight one.
+        """
+
+    def explained_areas(self, area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], bend: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, slant: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        Area (f,) that faces lose or win by the distance (m,) of their triangles, of an area (m,), from the surface.
+
+        slant: of (distance / height)^2, what the area may differ by; bend (m,): twice the curvature of the sides of quadratic triangles.
+        """
+
+    def rim_losses(self, edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sagitta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sharpest: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        Area that rims lose: of edges (ne,), 0 where one is none, and of faces (f,), of edges of one or two triangles. It is length times the larger of sagitta and the distance (m,) of their triangles over the sine between these, not below ``sharpest``, at most the length.
+
+        Rims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for none.
+        """
+
+def edges_of_faces(half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+    """
+    Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those between two faces (m,) of triangles the first, and at the end the second.
     """
 
 def edge_sagittas(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
@@ -204,54 +268,27 @@ def edge_sagittas(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     About twice the sagittas (k,) of segments (k, 2), rows of points (n, 3), by the angles between those that follow each other on one of the edges (k,); 0 where one is alone.
     """
 
-def rim_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sagitta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sharpest: float, count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Area that rims lose: of edges (ne,), 0 where one is none, and of ``count`` faces, of edges of one or two triangles. It is length times the larger of sagitta and the distance (m,) of their triangles over the sine between these, not below ``sharpest``, at most the length.
-
-    Rims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for none; points (n, 3), triangles (m, 3) of faces (m,), half_edges (ne, 2) and uses (ne,) of the edge table.
-    """
-
-def triangle_fans(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-    """
-    Fans (n,) of triangles (m, 3) at each vertex. half_edges (k, 2): pairs that join their triangles along an edge, whichever way they run; -1 in the second column: none.
-    """
-
-def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-    """
-    Numbers (k,) of the edges whose two triangles run along them the same way.
-    """
-
 def unused_vertex(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> int:
     """
     The first of so many vertices that belongs to none of triangles (m, 3), or -1.
     """
 
-def are_proper(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
+def is_sound(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, mid_points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)] | None, uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], surfaces: int | None) -> bool:
     """
-    Are the corners of triangles (m, 3) all of so many vertices, none twice in a triangle, no three of them twice, and no vertex left out?
+    Does all hold that ``SurfaceMesh.broken_invariant`` is asked for? Corners of triangles (m, 3) are all of points (n, 3), none twice in a triangle, no three of them twice, and no vertex left out; uv_triangles (m, 3) are rows of uv (k, 2), faces (m,) of so many surfaces; all numbers are finite, sizes (n,) positive.
     """
 
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
 
-def face_shapes(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], alpha: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Of ``count`` faces the triangles, the area, the sum of alpha and the least alpha, (count,) each, infinite without a triangle; by triangles of faces (m,), area (m,), alpha (m,).
-    """
-
-def face_distances(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
-    """
-    Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (count,) each; by triangles of faces (m,), all others (m,).
-    """
-
-def face_angles(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], degrees: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
-    """
-    Of ``count`` faces the largest angle across an edge within, 0 without any, how many are above most (f,), or (1,) of all, and how many there are, (count,) each; by edges within faces (k,), degrees (k,).
-    """
-
 def largest_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Numbers of the ``count`` largest of values (n,), rising, or of all where there are no more; of equal ones those that come first. NaN is as large as infinity.
+    """
+
+def least_values(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Numbers of the ``count`` least of values (n,), the least first; of equal ones those that come first. NaN is not among them.
     """
 
 def spread(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[float, float, float, float]:
@@ -272,11 +309,6 @@ def solid_boxes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), 
 def corner_places(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, places: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     How many places of (u, v) each vertex (n,) has, by the corners of triangles (m, 3) and those of uv_triangles (m, 3).
-    """
-
-def face_edge_means(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
-    """
-    Mean (count,) of values (k,) over the edges of each face, 0 where there is none; half_edges (k, 2): the triangles beside them are of faces (m,), -1 in the second column for none. An edge between two faces counts for both.
     """
 
 def binned_counts(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], low: float, high: float, bins: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:

@@ -11,15 +11,20 @@ def first_broken(
     mid_points: FloatArray | None, corners: Parametrisation | None, links: ModelLinks,
 ) -> str | None:  # fmt: skip
     """The first broken invariant of a mesh, or None; see ``SurfaceMesh.broken_invariant``."""
-    from surfmesh._core.quality import are_proper  # late, as in ``connect``
+    from surfmesh._core.quality import is_sound  # late, as in ``connect``
 
-    proper = are_proper(triangles, len(points))
-    outside = None if proper else _outside("triangles", triangles, len(points))
+    uv_triangles = None if corners is None else corners.uv_triangles
+    uv_points = None if corners is None else corners.uv_points
+    surfaces = len(links.surfaces) or None
+    if is_sound(
+        points, triangles, sizes, mid_points, uv_points, uv_triangles, links.face_ids, surfaces
+    ):
+        return None
+    outside = _outside("triangles", triangles, len(points))
     if outside is None and corners is not None:
         outside = _outside("uv_triangles", corners.uv_triangles, len(corners.uv_points))
     if outside is not None:
         return outside
-    uv_points = None if corners is None else corners.uv_points
     held = {"points": points, "uv_points": uv_points, "sizes": sizes, "mid_points": mid_points}
     for name, array in held.items():
         if array is not None and not np.isfinite(array).all():
@@ -28,7 +33,7 @@ def first_broken(
     if sizes is not None and len(sizes) and sizes.min() <= 0:
         bad = int(sizes.argmin())
         return f"sizes[{bad}] = {sizes[bad]} is not positive"
-    improper = None if proper else _first_improper(triangles, len(points))
+    improper = _first_improper(triangles, len(points))
     if improper is not None:
         return improper
     if links.surfaces and len(links.face_ids):

@@ -142,7 +142,8 @@ class DihedralFigures(Part):
         worst = None if dihedrals is None else largest_angle(measured.mesh, dihedrals)
         above = None
         if dihedrals is not None and worst is not None and np.isfinite(tolerances.angle).any():
-            above = float(np.mean(exceeds_angle(tolerances, dihedrals)))
+            exceeding = np.count_nonzero(exceeds_angle(tolerances, dihedrals))
+            above = float(exceeding / dihedrals.number.sum())
         sizing = measured.mesh.sizing
         largest, triangles, point = (None, None, None) if worst is None else worst
         return cls(

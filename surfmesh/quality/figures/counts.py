@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -28,7 +26,7 @@ class Counts(Part):
             surface=_names(mesh, measured.facts.source),
             nodes=len(mesh.points),
             triangles=len(mesh.triangles),
-            faces=len(mesh.surfaces) or len(np.unique(mesh.face_ids)),
+            faces=len(mesh.surfaces) or len(measured.faces.numbers),
         )
 
 

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh._core.quality import quantile
-from surfmesh.quality.figures.part import Part, Spread
+from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.folds import FoldedTriangle, most_folded
 from surfmesh.quality.measures.measurements import LISTED, Measurements
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
+from surfmesh.quality.measures.spread import Spread
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,8 +37,9 @@ class ShapeFigures(Part):
     def of(cls, measured: Measurements) -> "ShapeFigures":
         """nan where there is no triangle."""
         shape, metric = measured.shapes, measured.metric_alpha
-        narrow = narrow_triangles(measured.mesh, shape.alpha)
-        alpha, radius_ratio = Spread.of(shape.alpha), Spread.of(shape.radius_ratio)
+        alpha, radius_ratio = measured.alpha_spread, Spread.of(shape.radius_ratio)
+        narrow = narrow_triangles(measured.mesh, shape.alpha, alpha)
+        flat = 0 if alpha.least > DEGENERATE else np.count_nonzero(~(shape.alpha > DEGENERATE))
         metric_alpha = None if metric is None else Spread.of(metric)
         return cls(
             alpha_mean=alpha.mean,
@@ -52,7 +54,7 @@ class ShapeFigures(Part):
             radius_ratio_min=radius_ratio.least,
             min_angle_deg=Spread.of(shape.min_angle).least,
             max_angle_deg=Spread.of(shape.max_angle).largest,
-            degenerate=int(np.count_nonzero(~(shape.alpha > DEGENERATE))),
+            degenerate=int(flat),
             jacobian_min=(
                 None
                 if measured.curved_shapes is None

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.quality.figures.part import Part, Spread
+from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.lengths import QUASI_UNIT
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import Point
+from surfmesh.quality.measures.spread import Spread
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,14 +35,14 @@ class SizeFigures(Part):
     @classmethod
     def of(cls, measured: Measurements) -> "SizeFigures":
         """Lengths over target sizes are those in the metric."""
-        lengths, metric = measured.lengths, measured.metric_lengths
+        edges, metric = measured.edges, measured.metric_lengths
         sizing, steep = measured.mesh.sizing, measured.size_growth
         conform = None
         if metric is not None and len(metric):
             low, high = QUASI_UNIT
             conform = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
-        edge = Spread.of(lengths)
-        length = None if metric is None else Spread.of(metric)
+        edge, (growth_max, growth_p99) = Spread(*edges.length), edges.ratios
+        length = None if metric is None else Spread(*edges.metric_length)
         return cls(
             edge_min=edge.least,
             edge_mean=edge.mean,
@@ -51,8 +52,8 @@ class SizeFigures(Part):
             length_std=None if length is None else length.deviation,
             length_min=None if length is None else length.least,
             length_max=None if length is None else length.largest,
-            growth_max=measured.growth.largest,
-            growth_p99=measured.growth.p99,
+            growth_max=growth_max,
+            growth_p99=growth_p99,
             growth=None if sizing is None else sizing.growth,
             above_growth_share=None if steep is None else steep.fraction,
             size_growth_max=None if steep is None else steep.largest,

@@ -12,7 +12,9 @@ torn_edges: free edges within a surface: a triangle is missing beside them.
 curved: quadratic triangles: area, volume, Jacobian, and their distance from the surface.
 shape: shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose.
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
+joined: the mesh with its edge table, as the core takes it: looked at once for all figures.
 lengths: edge lengths against the target sizes, and how fast they change from edge to edge.
+spread: least, mean and largest of values.
 histograms: how the quality is spread: counts in fixed bins, so that reports can be laid side by
     side.
 solids: the solids of a CAD model's mesh, one by one: a face between two of them counts for both.

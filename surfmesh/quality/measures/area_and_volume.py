@@ -8,12 +8,10 @@
 What is more than that is lost (``verdict/area_and_volume``).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core import quality
+from surfmesh._core.quality import JoinedTriangles
 from surfmesh.quality.measures.penetration import edge_sagittas
 from surfmesh.quality.measures.topology import half_edges_along
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -23,28 +21,30 @@ SHARPEST = 0.1  # sine of the least angle between faces that tells where their e
 CORNER = np.radians(60.0)  # a rim with a larger angle has a corner there
 
 
-class Explained(NamedTuple):
-    """What distances from the surface explain, in model units."""
-
-    area: NDArray[np.float64]  # (m,) of each triangle
-    rims: NDArray[np.float64]  # (f,) of each face, along its rims
-    volume: NDArray[np.float64]  # (m,)
-
-
 def is_known(mesh: SurfaceMesh) -> bool:
     """Is there an exact area or volume to compare with?"""
     facts = mesh.facts
     return facts is not None and bool(facts.area or facts.faces or facts.solids)
 
 
-def explained(
-    mesh: SurfaceMesh, area: NDArray[np.float64], by_triangle: NDArray[np.float64]
-) -> Explained:
-    """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
-    lost, volume = quality.explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
-    if mesh.mid_points is not None:
-        lost = np.minimum(lost + area * by_triangle * _bends(mesh, mesh.mid_points), area)
-    return Explained(lost, _along_rims(mesh, by_triangle), volume)
+def explained_areas(
+    mesh: SurfaceMesh, joined: JoinedTriangles, area: NDArray[np.float64],
+    by_triangle: NDArray[np.float64],
+) -> NDArray[np.float64]:  # fmt: skip
+    """(f,) what distances from the surface explain of the area of each face, and along its rims.
+
+    area: (m,) of the triangles; by_triangle: (m,) their distances from the surface.
+    """
+    bend = None if mesh.mid_points is None else _bends(mesh, mesh.mid_points)
+    of_triangles = joined.explained_areas(area, by_triangle, bend, SLANT)
+    return of_triangles + _along_rims(mesh, joined, by_triangle)
+
+
+def explained_volume(
+    area: NDArray[np.float64], by_triangle: NDArray[np.float64], own: NDArray[np.bool_]
+) -> float:
+    """Likewise of the volume of a solid; own: (m,) which triangles lie around it."""
+    return float((area[own] * by_triangle[own]).sum())
 
 
 def _bends(mesh: SurfaceMesh, mid_points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -57,7 +57,9 @@ def _bends(mesh: SurfaceMesh, mid_points: NDArray[np.float64]) -> NDArray[np.flo
     return bent[mesh.elements[:, 3:] - len(mesh.points)].max(axis=1)
 
 
-def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[np.float64]:
+def _along_rims(
+    mesh: SurfaceMesh, joined: JoinedTriangles, by_triangle: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """(f,) length times sagitta along the rims of each face."""
     table, links = mesh.connectivity, mesh.edge_links
     if links is None or not len(links.edge_segments):
@@ -65,16 +67,12 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
         sagitta = _rim_sagittas(mesh, rows)
     else:
         rows, sagitta = mesh.edge_segment_rows, edge_sagittas(mesh, links)
-    count = int(mesh.face_ids.max(initial=0)) + 1
-    of_edges, of_faces = quality.rim_losses(
-        mesh.points, mesh.triangles, mesh.face_ids, table.half_edges, table.uses, rows, sagitta,
-        by_triangle, SHARPEST, count,
-    )  # fmt: skip
+    of_edges, of_faces = joined.rim_losses(rows, sagitta, by_triangle, SHARPEST)
     crowded = np.flatnonzero(table.uses > 2)
     if len(crowded):
         half_edge, row = half_edges_along(mesh, mesh.edges[crowded])
         faces = mesh.face_ids[half_edge // 3]
-        of_faces += np.bincount(faces, of_edges[crowded[row]], count)
+        of_faces += np.bincount(faces, of_edges[crowded[row]], len(of_faces))
     return of_faces
 
 

@@ -1,12 +1,12 @@
 """The figures of each solid of a CAD model, beside the exact ones."""
 
 from dataclasses import dataclass
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import enclosed_volumes, face_shapes, solid_counts
-from surfmesh.quality.measures.shape import Shapes
+from surfmesh._core.quality import JoinedTriangles, solid_counts
 from surfmesh.quality.measures.solids import around_solids
 from surfmesh.quality.measures.topology import Topology
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -30,34 +30,52 @@ class SolidRow:
     volume_error: float | None
 
 
-def by_solid(
-    mesh: SurfaceMesh,
-    shape: Shapes,
-    topo: Topology,
-    bulges: NDArray[np.float64] | None = None,
-) -> tuple[SolidRow, ...]:
+class SolidFigures(NamedTuple):
+    """By solid (s,), and triangles counted."""
+
+    triangles: NDArray[np.int64]
+    area: NDArray[np.float64]
+    volume: NDArray[np.float64]  # without meaning where it is open
+    behind: int  # triangles that have a solid behind them
+    before: int  # before them
+    both: int
+
+    @classmethod
+    def of(
+        cls,
+        mesh: SurfaceMesh,
+        joined: JoinedTriangles,
+        area: NDArray[np.float64],
+        bulges: NDArray[np.float64] | None,
+    ) -> Self:
+        """bulges: (m,) volume between each triangle, if it is curved, and its straight one."""
+        if mesh.solid_ids is None:
+            return cls(np.empty(0, np.int64), np.empty(0), np.empty(0), 0, 0, 0)
+        exact = mesh.facts.solids if mesh.facts is not None else ()
+        count = max(int(mesh.solid_ids.max(initial=-1)) + 1, len(exact))
+        return cls(*joined.solid_figures(mesh.solid_ids, area, bulges, count))
+
+    def is_around_all(self, mesh: SurfaceMesh) -> bool:
+        """Does a solid lie behind or before every triangle?"""
+        return self.behind + self.before - self.both == len(mesh.triangles)
+
+    def is_whole(self, mesh: SurfaceMesh) -> bool:
+        """Do all triangles lie around one solid, which is behind them?"""
+        count = len(mesh.triangles)
+        return len(self.triangles) == 1 and not self.before and 0 < self.behind == count
+
+
+def by_solid(mesh: SurfaceMesh, found: SolidFigures, topo: Topology) -> tuple[SolidRow, ...]:
     """Rows of all solids; a face between two of them counts for both. None without solid_ids.
 
-    topo: of the whole mesh. bulges: (m,) volume between each triangle, if it is curved, and its
-    straight one.
+    topo: of the whole mesh.
     """
-    if mesh.solid_ids is None:
-        return ()
     exact = mesh.facts.solids if mesh.facts is not None else ()
-    count = max(int(mesh.solid_ids.max(initial=-1)) + 1, len(exact))
-    if not count:
-        return ()
-    around, rows, solid = around_solids(mesh)
-    own_area = shape.area if around is mesh.triangles else shape.area[rows]
-    triangles, area, _, _ = face_shapes(solid, own_area, own_area, count)
-    apexes = _first_corners(mesh, around, solid, count)
-    volume = enclosed_volumes(mesh.points, around, solid, apexes)
-    if bulges is not None:
-        outwards = np.where((around == mesh.triangles[rows]).all(axis=1), 1.0, -1.0)
-        volume += np.bincount(solid, outwards * bulges[rows], count)
-    if count == 1 and around is mesh.triangles:  # the whole mesh: it has been counted
+    triangles, area, volume, count = found.triangles, found.area, found.volume, len(found.triangles)
+    if found.is_whole(mesh):  # it has been counted
         euler, closed = np.array([topo.euler]), [topo.balanced]
     else:
+        around, _, solid = around_solids(mesh)
         vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
         euler = vertices - edges + triangles
         closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]
@@ -80,19 +98,6 @@ def by_solid(
         )
         for k in range(count)
     )
-
-
-def _first_corners(
-    mesh: SurfaceMesh, around: NDArray[np.int32], solid: NDArray[np.int32], count: int
-) -> NDArray[np.float64]:
-    """(count, 3) a point of each solid: volumes to one far away cancel in rounding."""
-    if not len(around):
-        return np.zeros((count, 3))
-    if count == 1:
-        return mesh.points[around[:1, 0]]
-    first = np.full(count, -1)
-    first[solid[::-1]] = np.arange(len(solid))[::-1]  # the last that is written stays: the first
-    return np.where(first[:, None] < 0, 0.0, mesh.points[around[first, 0]])
 
 
 def relative_error(found: float | None, exact: float | None) -> float | None:

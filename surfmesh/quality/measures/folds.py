@@ -49,6 +49,8 @@ class Folds(NamedTuple):
     nearest: float  # within which such corners lie on the surface
     radius: float  # below which a surface is said to bend sharply, model units
 
+    found: int  # triangles that are turned too far, whoever does it
+
     @property
     def inverted(self) -> NDArray[np.bool_]:
         """(m,) those of ``by_mesh`` turned by more than a right angle."""
@@ -77,7 +79,7 @@ def folds(known: KnownSurfaces, cosine: NDArray[np.float32]) -> Folds:
         misplaced[some] = np.where(flat, np.where(on, from_image, 0.0).max(axis=1), 0.0)
         nearest = max(nearest, float(deviation[on & flat[:, None]].max(initial=0.0)))
     by_mesh = folded & ~by_surface
-    return Folds(by_mesh, by_surface, cosine, off_surface, misplaced, nearest, radius)
+    return Folds(by_mesh, by_surface, cosine, off_surface, misplaced, nearest, radius, len(bad))
 
 
 def _distances(
@@ -94,9 +96,9 @@ def _distances(
 
 def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTriangle, ...]:
     """The ``count`` triangles that are turned most: first those that the surface does not."""
-    bad = np.flatnonzero(found.by_mesh | found.by_surface)
-    if not len(bad):
+    if not found.found:
         return ()
+    bad = np.flatnonzero(found.by_mesh | found.by_surface)
     bad = bad[np.lexsort((found.cosine[bad], found.by_surface[bad]))][:count]
     angle = np.degrees(np.arccos(np.clip(found.cosine[bad].astype(float), -1.0, 1.0)))
     places = mesh.points[mesh.triangles[bad]].mean(axis=1)

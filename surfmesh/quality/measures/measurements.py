@@ -9,10 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import EdgeFigures, JoinedTriangles
 from surfmesh.quality.measures.against_model import Unexpected, unexpected
-from surfmesh.quality.measures.area_and_volume import Explained, explained, is_known
+from surfmesh.quality.measures.area_and_volume import explained_areas, is_known
 from surfmesh.quality.measures.bodies import Bodies, bodies
-from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.measures.by_solid import SolidFigures, SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
 from surfmesh.quality.measures.coincident_edges import coincident_edges
 from surfmesh.quality.measures.curved import (
@@ -24,18 +25,10 @@ from surfmesh.quality.measures.curved import (
 from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
+from surfmesh.quality.measures.joined import NumberedFaces, joined_triangles
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
-from surfmesh.quality.measures.lengths import (
-    EdgeSizes,
-    Growth,
-    SizeGrowth,
-    edge_lengths,
-    edge_sizes,
-    growth,
-    metric_lengths,
-    size_growth,
-)
+from surfmesh.quality.measures.lengths import SizeGrowth, edge_figures, size_growth
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.off_surface import OffSurface, off_surface
 from surfmesh.quality.measures.proof import Proof, proof
@@ -43,7 +36,7 @@ from surfmesh.quality.measures.proved_isotopy import isotopic
 from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.measures.solids import is_one_solid, shares_faces
+from surfmesh.quality.measures.spread import Spread
 from surfmesh.quality.measures.surface_to_mesh import (
     SurfaceDeviation,
     both_ways,
@@ -75,7 +68,7 @@ class Measurements:
         self.broken = mesh.broken_invariant()  # the first broken invariant, in words
         if self.broken and not _are_in_range(mesh):
             raise ValueError(f"this is not a mesh: {self.broken}")
-        self.finite = bool(np.isfinite(mesh.points).all())
+        self.finite = not self.broken or bool(np.isfinite(mesh.points).all())
         self.facts = mesh.facts or ModelFacts()
         self.tolerances = Tolerances.of(mesh)
         self.known = KnownSurfaces.of(mesh)
@@ -83,7 +76,7 @@ class Measurements:
     @cached_property
     def topology(self) -> Topology:
         """Of its triangles."""
-        return topology(self.mesh)
+        return topology(self.mesh, self.joined)
 
     @cached_property
     def unexpected(self) -> Unexpected:
@@ -123,38 +116,41 @@ class Measurements:
         return found if curved is None else found._replace(area=curved.area)
 
     @cached_property
+    def alpha_spread(self) -> Spread:
+        """Of alpha over its triangles."""
+        return Spread.of(self.shapes.alpha)
+
+    @cached_property
     def metric_alpha(self) -> NDArray[np.float64] | None:
         """(m,) alpha in the metric, where sizes depend on the direction."""
         return None if self.mesh.metric_root_3d is None else metric_alpha(self.mesh)
 
     @cached_property
-    def lengths(self) -> NDArray[np.float64]:
-        """(ne,) of its edges."""
-        return edge_lengths(self.mesh)
+    def faces(self) -> NumberedFaces:
+        """All faces in a row."""
+        return NumberedFaces.of(self.mesh)
 
     @cached_property
-    def edge_sizes(self) -> EdgeSizes | None:
-        """The target sizes at the ends of its edges."""
-        return edge_sizes(self.mesh)
+    def joined(self) -> JoinedTriangles:
+        """The mesh with its edge table, as the core takes it."""
+        return joined_triangles(self.mesh, self.faces)
 
     @cached_property
+    def edges(self) -> EdgeFigures:
+        """Lengths of its edges."""
+        asked = None if self.mesh.sizing is None else self.mesh.sizing.gradient
+        slope = asked if asked is not None and self.finite else 0.0
+        return edge_figures(self.mesh, self.joined, slope)
+
+    @property
     def metric_lengths(self) -> NDArray[np.float64] | None:
-        """(ne,) the same over the target sizes."""
-        return metric_lengths(self.mesh, self.lengths, self.edge_sizes)
-
-    @cached_property
-    def growth(self) -> Growth:
-        """Of edges at a vertex; in the metric, where sizes depend on the direction."""
-        metric = None if self.mesh.metric_root_3d is None else self.metric_lengths
-        return growth(self.mesh, self.lengths if metric is None else metric)
+        """(ne,) of its edges over the target sizes."""
+        return None if self.mesh.sizes is None else self.edges.metric_lengths
 
     @cached_property
     def size_growth(self) -> SizeGrowth | None:
         """Of the target sizes."""
-        slope = None if self.mesh.sizing is None else self.mesh.sizing.gradient
-        if slope is None or not self.finite:
-            return None
-        return size_growth(self.mesh, self.lengths, self.edge_sizes, slope)
+        return size_growth(self.mesh, self.edges)
 
     @cached_property
     def deviation(self) -> Deviation | None:
@@ -249,15 +245,15 @@ class Measurements:
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
         """Within faces."""
-        if not self.finite:
+        if not self.finite or self.known is None:
             return None
-        return angles_within_faces(self.mesh, self.tolerances.angle, self.known)
+        return angles_within_faces(self.known, self.joined, self.tolerances.angle)
 
     @cached_property
     def angle_check(self) -> ToleranceCheck | None:
         """Do the dihedral angles keep to the angle of each face? None: it has none."""
         dihedrals = self.dihedral_angles
-        if dihedrals is None or not len(dihedrals.angles):
+        if dihedrals is None or dihedrals.worst is None:
             return None
         if not np.isfinite(self.tolerances.angle).any():
             return None
@@ -281,16 +277,26 @@ class Measurements:
         """The figures of each solid."""
         if not self.finite:
             return ()
+        return by_solid(self.mesh, self.solid_figures, self.topology)
+
+    @cached_property
+    def solid_figures(self) -> SolidFigures:
+        """What is added up of each solid."""
         curved = self.curved_shapes
         bulges = None if curved is None else curved.volume
-        return by_solid(self.mesh, self.shapes, self.topology, bulges)
+        return SolidFigures.of(self.mesh, self.joined, self.shapes.area, bulges)
+
+    @property
+    def shares_faces(self) -> bool:
+        """Do two solids of the model have a face in common?"""
+        return self.solid_figures.both > 0
 
     @cached_property
     def volume(self) -> float | None:
         """Of what the mesh encloses; where solids share faces, the sum over the solids."""
         if not self.finite or self.broken:
             return None
-        if shares_faces(self.mesh) or (len(self.solids) == 1 and is_one_solid(self.mesh)):
+        if self.shares_faces or self.solid_figures.is_whole(self.mesh):
             return volume_of_all(self.solids)
         if not self.topology.balanced:
             return None
@@ -309,11 +315,11 @@ class Measurements:
         )
 
     @cached_property
-    def explained(self) -> Explained | None:
-        """How much area and volume the deviation explains, where exact ones are known."""
+    def explained_areas(self) -> NDArray[np.float64] | None:
+        """(f,) how much area of each face the deviation explains, where exact ones are known."""
         if self.deviation is None or not self.has_exact_figures:
             return None
-        return explained(self.mesh, self.shapes.area, self.deviation.by_triangle)
+        return explained_areas(self.mesh, self.joined, self.shapes.area, self.deviation.by_triangle)
 
     @cached_property
     def crosses_itself(self) -> bool:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.measures.spread import Spread
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 DEGENERATE = 1e-6
@@ -29,19 +30,26 @@ def in_narrow_faces(mesh: SurfaceMesh) -> NDArray[np.bool_]:
     return mesh.narrow_faces[mesh.face_ids]
 
 
-def narrow_triangles(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NarrowTriangles:
-    """alpha: (m,) of all triangles."""
-    faces = mesh.narrow_faces
-    others = alpha if faces is None or not faces.any() else alpha[~in_narrow_faces(mesh)]
+def narrow_triangles(
+    mesh: SurfaceMesh, alpha: NDArray[np.float64], of_all: Spread
+) -> NarrowTriangles:
+    """alpha: (m,) of all triangles, and how they are spread."""
+    faces, others = mesh.narrow_faces, alpha
+    if faces is not None and faces.any():
+        others = alpha[~in_narrow_faces(mesh)]
+        of_all = Spread.of(others)
     count = len(alpha) - len(others)
     if not len(others):
         return NarrowTriangles(count, None, None)
-    return NarrowTriangles(count, float(others.mean()), float(others.min()))
+    return NarrowTriangles(count, of_all.mean, of_all.least)
 
 
-def without_area(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(m,) which triangles have none to speak of, for the face that they are on."""
+def without_area(mesh: SurfaceMesh, alpha: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
+    """(m,) which triangles have none to speak of, for the face that they are on. least: of alpha,
+    NaN where one is."""
+    if least > DEGENERATE:
+        return np.zeros(len(alpha), bool)
     flat = ~(alpha > DEGENERATE)
-    if mesh.narrow_faces is not None and flat.any():
+    if mesh.narrow_faces is not None:
         flat &= ~(in_narrow_faces(mesh) & (alpha > DEGENERATE_NARROW))
     return flat

@@ -24,14 +24,6 @@ def solids_beside(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return mesh.solid_ids
 
 
-def is_one_solid(mesh: SurfaceMesh) -> bool:
-    """Do all triangles lie around one solid, which is behind them?"""
-    if mesh.solid_ids is None or not len(mesh.solid_ids):
-        return False
-    behind, before = mesh.solid_ids.T
-    return int(before.max()) < 0 and int(behind.min()) == int(behind.max()) == 0
-
-
 def bounds_solid(mesh: SurfaceMesh, solid: int) -> NDArray[np.bool_]:
     """(m,) does a solid lie behind or before a triangle?"""
     behind, before = solids_beside(mesh).T

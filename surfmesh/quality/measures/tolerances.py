@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,9 +92,8 @@ class Tolerances(NamedTuple):
     @classmethod
     def of(cls, mesh: SurfaceMesh) -> Tolerances:
         """Of the mesh's ``promises``, or of its ``sizing`` on every face."""
-        count = max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
         given = tolerance_rows(mesh)
-        if given is None or 1 < len(given) < count or not len(given):
+        if given is None or not len(given) or 1 < len(given) < _faces(mesh):
             given = np.full((1, 3), np.nan)
         chord, angle = (np.where(np.isnan(given[:, k]), np.inf, given[:, k]) for k in (0, 1))
         least = np.where(np.isnan(given[:, 2]), 0.0, given[:, 2])
@@ -123,6 +122,11 @@ class Tolerances(NamedTuple):
         return float(self.angle[0]) if self.uniform and np.isfinite(self.angle[0]) else None
 
 
+def _faces(mesh: SurfaceMesh) -> int:
+    """How many there are, by their numbers."""
+    return max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
+
+
 def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
     """(m,) which triangles lie farther from the surface than their face allows."""
     chord = tolerances.at(tolerances.chord, mesh.face_ids)
@@ -130,7 +134,7 @@ def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> 
 
 
 def exceeds_angle(tolerances: Tolerances, dihedrals: DihedralAngles) -> NDArray[np.bool_]:
-    """(k,) across which edges the dihedral angle is larger than their face allows."""
+    """(k,) across which of ``dihedrals.edges`` the angle is larger than their face allows."""
     return dihedrals.above(tolerances.at(tolerances.angle, dihedrals.faces))
 
 
@@ -152,7 +156,7 @@ class _Excess(NamedTuple):
     size: NDArray[np.float64]  # (k,) target size there; infinite: not known
     factor: NDArray[np.float64]  # (k,) of it, that would keep to the tolerance
     points: NDArray[np.float64]  # (k, 3)
-    by_face: NDArray[np.intp]  # (f,) how many triangles or edges there are in all
+    by_face: NDArray[np.integer[Any]]  # (f,) how many triangles or edges there are in all
     total: int
 
 
@@ -184,9 +188,9 @@ def angle_check(
     angle = tolerances.at(tolerances.angle, faces)
     ends = mesh.edges[dihedrals.edges[far]]
     size, points = _sizes(mesh, ends), mesh.points[ends].mean(axis=1)
-    by_face, total = np.bincount(dihedrals.faces), len(dihedrals.angles)
+    total = int(dihedrals.number.sum())
     excess = _Excess(
-        "angle", far, faces, reached, angle, size, angle / reached, points, by_face, total
+        "angle", far, faces, reached, angle, size, angle / reached, points, dihedrals.number, total
     )
     return _split(tolerances, mesh, excess)
 

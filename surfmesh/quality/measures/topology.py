@@ -5,9 +5,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core import quality
+from surfmesh._core.quality import JoinedTriangles
 from surfmesh.geometry.components import components
+from surfmesh.quality.measures.joined import joined_triangles
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+NO_CHAINS = np.empty((0, 2), np.int32)  # of half-edges along crowded edges
 
 
 class Topology(NamedTuple):
@@ -46,47 +49,42 @@ class Topology(NamedTuple):
         return not len(self.clashing_edges)
 
 
-def topology(mesh: SurfaceMesh) -> Topology:
-    """Topology of ``mesh``; vertex numbers must be in range (``mesh.broken_invariant()``)."""
-    n, table = len(mesh.points), mesh.connectivity
-    boundary = table.boundary
-    extra = _crowded_half_edges(mesh)
-    fans = _fans(mesh, extra)
-    used = fans > 0
-    clashing = _clashing(mesh)
-    even = len(mesh.triangles) > 0 and not len(boundary) and not len(clashing)
-    even = even and _is_balanced(mesh, extra)
+def topology(mesh: SurfaceMesh, joined: JoinedTriangles | None = None) -> Topology:
+    """Topology of ``mesh``; vertex numbers must be in range (``mesh.broken_invariant()``).
+
+    joined: the mesh, where it is at hand.
+    """
+    joined = joined or joined_triangles(mesh)
+    vertices, pieces, free, fans, pinched, crowded, clashing = joined.topology(NO_CHAINS)
+    half_edges, along = _crowded_half_edges(mesh, crowded)
+    if len(crowded):
+        *_, fans, pinched, _, _ = joined.topology(_chains(half_edges, along))
     return Topology(
-        vertices=int(np.count_nonzero(used)),
-        edges=len(table.edges),
+        vertices=vertices,
+        edges=len(mesh.edges),
         triangles=len(mesh.triangles),
-        components=_count(vertex_components(mesh), used),
-        boundary_edges=len(boundary),
-        boundary_loops=(
-            _count(components(n, boundary), np.unique(boundary)) if len(boundary) else 0
-        ),
-        crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
-        pinched_vertices=np.flatnonzero(fans > 1).astype(np.int32),
+        components=pieces,
+        boundary_edges=free,
+        boundary_loops=_boundary_loops(mesh) if free else 0,
+        crowded_edges=crowded,
+        pinched_vertices=pinched,
         clashing_edges=clashing,
         fans=fans,
-        balanced=even,
-    )
+        balanced=bool(len(mesh.triangles)) and not free and not len(clashing)
+        and _is_balanced(mesh, half_edges, along),
+    )  # fmt: skip
+
+
+def _boundary_loops(mesh: SurfaceMesh) -> int:
+    """Chains of boundary edges that hang together."""
+    boundary = mesh.connectivity.boundary
+    labels = components(len(mesh.points), boundary)
+    return len(np.unique(labels[boundary]))
 
 
 def vertex_components(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """(n,) the smallest number among the vertices that each hangs together with."""
     return components(len(mesh.points), mesh.edges)
-
-
-def _count(labels: NDArray[np.int32], members: NDArray) -> int:
-    """Number of components among ``members``: those that are their own label."""
-    return int((labels == np.arange(len(labels), dtype=np.int32))[members].sum())
-
-
-def _clashing(mesh: SurfaceMesh) -> NDArray[np.int32]:
-    """Edges whose two half-edges start at the same end."""
-    table = mesh.connectivity
-    return quality.clashing_edges(mesh.triangles, table.half_edges, table.uses)
 
 
 def half_edges_along(
@@ -111,36 +109,27 @@ def half_edges_along(
     return half_edges[here], row[here]
 
 
-def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _crowded_half_edges(
+    mesh: SurfaceMesh, crowded: NDArray[np.int32]
+) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """Half-edges (k,) of edges of three triangles or more, in order of edges, and the edges."""
-    crowded = np.flatnonzero(mesh.connectivity.uses > 2)
     if not len(crowded):
-        return np.empty(0, np.int64), np.empty(0, np.int64)
+        return np.empty(0, np.int64), crowded
     half_edges, row = half_edges_along(mesh, mesh.edges[crowded])
     order = np.argsort(row, kind="stable")
     return half_edges[order], crowded[row[order]]
 
 
-def _is_balanced(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> bool:
+def _chains(half_edges: NDArray[np.int64], edges: NDArray[np.int32]) -> NDArray[np.int32]:
+    """(k, 2) those of one edge of three or more triangles one after the other."""
+    along = np.flatnonzero(edges[1:] == edges[:-1])
+    return np.stack([half_edges[along], half_edges[along + 1]], axis=1).astype(np.int32)
+
+
+def _is_balanced(mesh: SurfaceMesh, half_edges: NDArray, edges: NDArray) -> bool:
     """Are crowded edges run along as often one way as the other?"""
-    half_edges, edges = crowded
     if not len(edges):
         return True
     corners = mesh.triangles.reshape(-1)
     ahead = corners[half_edges] == mesh.edges[edges, 0]
     return not np.bincount(edges, np.where(ahead, 1.0, -1.0)).any()
-
-
-def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int64]:
-    """Fans at each vertex: corners joined across shared edges, then counted.
-
-    The half-edges 3t+i and 3s+j of one edge, whichever way they run, join the corners at
-    each end of it; those of an edge of three or more triangles one after the other.
-    """
-    pairs = mesh.connectivity.half_edges
-    half_edges, edges = (array.astype(np.int32) for array in crowded)
-    if len(edges):
-        along = np.flatnonzero(edges[1:] == edges[:-1])
-        chains = np.stack([half_edges[along], half_edges[along + 1]], axis=1)
-        pairs = np.concatenate([pairs[mesh.connectivity.uses == 2], chains])
-    return quality.triangle_fans(mesh.triangles, len(mesh.points), pairs)

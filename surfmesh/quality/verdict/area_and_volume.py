@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh.geometry.surface import surface_kind
+from surfmesh.quality.measures.area_and_volume import explained_volume
 from surfmesh.quality.measures.face_rows import FaceRows
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import face_in_words, more_in_words
@@ -127,10 +128,10 @@ def _volumes(measured: Measurements) -> Iterator[Problem]:
     for row in measured.solids:
         if row.volume is None or row.volume_exact is None or row.volume_error is None:
             continue
-        if abs(row.volume_error) <= LEAST_INEXACT or measured.explained is None:
+        if abs(row.volume_error) <= LEAST_INEXACT or measured.deviation is None:
             continue  # whatever its faces are
-        own = bounds_solid(mesh, row.solid)
-        allowed = float(measured.explained.volume[own].sum()) / row.volume_exact
+        own, by_triangle = bounds_solid(mesh, row.solid), measured.deviation.by_triangle
+        allowed = explained_volume(measured.shapes.area, by_triangle, own) / row.volume_exact
         if abs(row.volume_error) <= allowed + LEAST_INEXACT:
             continue
         inexact = [
@@ -158,10 +159,9 @@ def _areas(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
     errors = np.abs(faces.area - area_exact)
     inexact = LEAST_INEXACT * area_exact + least
     suspects = known[errors[known] > (1.0 - NEARLY) * inexact[known]]
-    if not len(suspects) or measured.explained is None:
+    if not len(suspects) or measured.explained_areas is None:
         return
-    found = measured.explained
-    allowed = np.bincount(measured.mesh.face_ids, found.area, len(found.rims)) + found.rims
+    allowed = measured.explained_areas
     near = (1.0 - NEARLY) * (allowed[faces.numbers[suspects]] + inexact[suspects])
     bad: list[tuple[float, AreaUnexplained]] = []
     for k in suspects[errors[suspects] > near].tolist():
@@ -183,9 +183,9 @@ def _whole_area(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
     if not exact or not faces:
         return
     area, inexact = sum(faces.area.tolist()), INEXACT["plane"] * exact
-    if abs(area - exact) <= inexact or measured.explained is None:
+    if abs(area - exact) <= inexact or measured.explained_areas is None:
         return
-    allowed = float(measured.explained.area.sum() + measured.explained.rims.sum())
+    allowed = float(measured.explained_areas.sum())
     if abs(area - exact) > allowed + inexact:
         yield AreaUnexplained(face="", found=area, exact=exact, explained=allowed, more="")
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import as_point, count_in_words, place_in_words
-from surfmesh.quality.measures.solids import shares_faces, solid_mesh
+from surfmesh.quality.measures.solids import solid_mesh
 from surfmesh.quality.measures.topology import topology
 from surfmesh.quality.verdict.finding import Kind, Problem, Remark
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -124,7 +124,7 @@ def odd_connectivity(measured: Measurements, missing: bool) -> Iterator[Problem]
     yield from _solids(measured, missing)
     if not missing:
         yield from _euler_numbers(measured)
-    if shares_faces(measured.mesh) and not odd.known:
+    if measured.shares_faces and not odd.known:
         return  # three triangles and more may meet where solids do
     yield from _edges(measured, missing)
     yield from _vertices(measured, missing)
@@ -159,7 +159,7 @@ def _solids(measured: Measurements, missing: bool) -> Iterator[Problem]:
             if row.solid < len(exact) and exact[row.solid].closed and not row.closed:
                 yield OddSolid(solid=row.solid, name=row.name, lacks=("closed",))
         return
-    for row in measured.solids if shares_faces(mesh) else ():
+    for row in measured.solids if measured.shares_faces else ():
         around = topology(solid_mesh(mesh, row.solid))
         lacks = tuple(
             name for name in ("closed", "manifold", "oriented") if not getattr(around, name)

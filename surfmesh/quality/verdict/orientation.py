@@ -65,6 +65,8 @@ def turned_inward(measured: Measurements) -> Iterator[Remark]:
         return
     if measured.mesh.one_sided or measured.facts.crosses_itself:
         return
+    if measured.solid_figures.is_around_all(measured.mesh):
+        return
     volume, first, closed = inward_pieces(measured.mesh, topology)
     if len(volume):
         yield PiecesFaceInside(

@@ -82,12 +82,12 @@ class FoldedSurface(Remark):
 def bad_triangles(measured: Measurements) -> Iterator[Problem]:
     """Those without area or with a doubtful Jacobian, those turned over, those turned by 60°."""
     mesh, folds = measured.mesh, measured.folds
-    flat = without_area(mesh, measured.shapes.alpha)
+    flat = without_area(mesh, measured.shapes.alpha, measured.alpha_spread.least)
     yield from _triangles(mesh, flat, Kind.WITHOUT_AREA, "without area")
     if measured.curved_shapes is not None:
         turned = ~flat & ~(measured.curved_shapes.jacobian > 0.0)
         yield from _triangles(mesh, turned, Kind.INVERTED, "whose Jacobian may change its sign")
-    if folds is None:
+    if folds is None or not folds.found:
         return
     folded = folds.by_mesh & ~folds.inverted
     for bad, kind, what in (
@@ -101,7 +101,7 @@ def bad_triangles(measured: Measurements) -> Iterator[Problem]:
 def folded_surfaces(measured: Measurements) -> Iterator[Remark]:
     """Faces that bend sharply or turn over, and where each does most."""
     folds, mesh = measured.folds, measured.mesh
-    if folds is None or not folds.by_surface.any():
+    if folds is None or not folds.found or not folds.by_surface.any():
         return
     faces = []
     for face in np.unique(mesh.face_ids[folds.by_surface]).tolist():

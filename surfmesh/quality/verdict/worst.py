@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core.quality import least_values
 from surfmesh.errors import shown
-from surfmesh.quality.measures.places import Point
+from surfmesh.quality.measures.places import Point, middles
 from surfmesh.quality.measures.shape import Shapes, shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -38,9 +39,7 @@ def worst_triangles(
     count = min(max(int(count), 0), len(mesh.triangles))
     if not count:
         return ()
-    last = np.partition(shape.alpha, count - 1)[count - 1]
-    worst = np.flatnonzero(shape.alpha <= last)  # ties: those of the smallest numbers
-    worst = worst[np.argsort(shape.alpha[worst], kind="stable")][:count]
+    worst = least_values(shape.alpha, count)
     corners, faces = mesh.triangles[worst], mesh.face_ids[worst].tolist()
     names = {face: mesh.face_name(face) for face in set(faces)}
     columns = (
@@ -48,7 +47,7 @@ def worst_triangles(
         *(angle[worst].tolist() for angle in (shape.alpha, shape.min_angle, shape.max_angle)),
         faces,
         map(names.__getitem__, faces),
-        map(tuple, mesh.points[corners].mean(axis=1).tolist()),
+        map(tuple, middles(mesh.points[corners]).tolist()),
         map(tuple, corners.tolist()),
     )
     return tuple(map(WorstTriangle, *columns))

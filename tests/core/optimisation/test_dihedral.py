@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from surfmesh.accuracy.dihedral import dihedral_angles
 from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
+from surfmesh.quality.measures.joined import joined_triangles
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
@@ -105,10 +107,15 @@ def roof_mesh(surface, angle):
     )  # fmt: skip
 
 
+def within_faces(mesh):
+    limits = np.array([mesh.sizing.angle])
+    return angles_within_faces(KnownSurfaces.of(mesh), joined_triangles(mesh), limits)
+
+
 def test_creases_of_the_surface_are_no_fault():
-    assert angles_within_faces(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
+    assert within_faces(roof_mesh(Roof(1.0), 10.0)).largest.max() == 0.0
     bent = roof_mesh(Roof(0.0), 10.0)  # on a plane it is one
-    turns = angles_within_faces(bent)
+    turns = within_faces(bent)
     largest, triangles, place = largest_angle(bent, turns)
     assert largest == pytest.approx(90.0) and sorted(triangles) == [0, 1]
     assert place == pytest.approx((0.0, 0.0, 0.0))

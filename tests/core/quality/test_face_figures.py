@@ -1,4 +1,4 @@
-"""Figures of faces, histograms and extremes of edges, against the same in numpy."""
+"""Figures of faces and histograms, against the same in numpy."""
 
 import numpy as np
 import pytest
@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from surfmesh._core import quality
+from surfmesh.result.connectivity import connect
 
 FACES = 4
 NUMBERS = st.floats(0.0, 1e3) | st.just(0.0) | st.just(1.0)
@@ -24,10 +25,16 @@ def triangles(draw, parts):
     return faces, *(draw(figures(count)) for _ in range(parts))
 
 
+def on_faces(faces):
+    """Triangles of these faces, all on the same three vertices."""
+    corners = np.tile(np.arange(3, dtype=np.int32), (len(faces), 1))
+    return quality.JoinedTriangles(np.eye(3), corners, faces, FACES, *connect(corners))
+
+
 @given(triangles(2))
 def test_shapes_are_added_up_face_by_face(given_):
     faces, area, alpha = given_
-    number, total, alphas, least = quality.face_shapes(faces, area, alpha, FACES)
+    number, total, alphas, least = on_faces(faces).face_shapes(area, alpha)
     np.testing.assert_array_equal(number, np.bincount(faces, minlength=FACES))
     np.testing.assert_array_equal(total, np.bincount(faces, area, FACES))
     np.testing.assert_array_equal(alphas, np.bincount(faces, alpha, FACES))
@@ -42,9 +49,7 @@ def test_the_worst_triangle_of_a_face_is_the_first_that_is_farthest(given_, is_u
     if is_unknown and len(faces):
         distance[0] = np.nan
     marked = (area > 1.0).view(np.uint8)
-    largest, worst, squares, number = quality.face_distances(
-        faces, distance, square, area, marked, FACES
-    )
+    largest, worst, squares, number = on_faces(faces).face_distances(distance, square, area, marked)
     for face in range(FACES):
         own = np.flatnonzero(faces == face)
         most = distance[own].max(initial=0.0)
@@ -53,13 +58,6 @@ def test_the_worst_triangle_of_a_face_is_the_first_that_is_farthest(given_, is_u
         assert worst[face] == (first[0] if len(first) else 0)
     np.testing.assert_array_equal(squares, np.bincount(faces, area * square, FACES))
     np.testing.assert_array_equal(number, np.bincount(faces, marked, FACES))
-
-
-def test_an_edge_between_two_faces_counts_for_both():
-    sides = np.array([(0, 3), (1, -1), (4, 6)], np.int32)  # of triangles 0, 1 and 2
-    faces, lengths = np.array([0, 1, 1], np.int32), np.array([1.0, 3.0, 8.0])
-    means = quality.face_edge_means(faces, sides, lengths, 3)
-    np.testing.assert_array_equal(means, [2.0, 4.5, 0.0])
 
 
 @given(figures(20, st.floats(-2.0, 3.0)), st.integers(1, 25))
@@ -76,16 +74,3 @@ def test_every_finite_value_is_in_one_bin(values, bins):
 def test_without_a_bin_nothing_is_counted():
     with pytest.raises(ValueError, match="no bin"):
         quality.binned_counts(np.ones(2), 1.0, 1.0, 3)
-
-
-@given(figures(6, st.floats(0.0, 1e3) | st.just(np.nan)))
-def test_extremes_of_the_edges_at_each_vertex(lengths):
-    edges = np.array([(0, 1), (0, 2), (1, 2), (2, 3), (3, 4), (0, 4)], np.int32)
-    longest, shortest = quality.edge_extremes(edges, lengths, 6)
-    most, least = np.zeros(6), np.full(6, np.inf)
-    with np.errstate(invalid="ignore"):
-        for end in edges.T:
-            np.maximum.at(most, end, lengths)
-            np.minimum.at(least, end, lengths)
-    np.testing.assert_array_equal(longest, most)
-    np.testing.assert_array_equal(shortest, least)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from surfmesh._core.quality import largest_values as largest
-from surfmesh._core.quality import quantile
+from surfmesh._core.quality import least_values, quantile
 
 
 @pytest.mark.parametrize("size, count", [(0, 0), (5, 5), (40, 7), (9_000, 400), (9_000, 8_000)])
@@ -24,6 +24,8 @@ def test_they_are_those_of_a_sort(size, count, kind):
     as_sorted = np.where(np.isnan(values), np.inf, values)
     by_value = np.lexsort((np.arange(size), -as_sorted))  # of equal ones the first
     assert found.tolist() == sorted(by_value[:count].tolist())
+    rising = np.lexsort((np.arange(size), values))[: np.count_nonzero(~np.isnan(values))]
+    assert least_values(values, count).tolist() == rising[:count].tolist()
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 100, 1001])

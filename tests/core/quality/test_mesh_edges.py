@@ -1,16 +1,16 @@
-"""Edges, fans and repeated triangles of a mesh: the core against numpy."""
+"""Soundness, edges, fans and repeated triangles of a mesh: the core against numpy."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from surfmesh._core import quality
-from surfmesh._core.optimisation import dihedral_angles
 from surfmesh.geometry.components import components
 from surfmesh.result.connectivity import connect
 
 seeds = st.integers(0, 2**31)
+NO_CHAINS = np.empty((0, 2), np.int32)
 
 
 def soup(seed, count=40, vertices=14):
@@ -19,6 +19,11 @@ def soup(seed, count=40, vertices=14):
     triangles = np.argsort(rng.random((count, vertices)), axis=1)[:, :3].astype(np.int32)
     points = rng.normal(size=(vertices, 3))
     return rng, points, triangles, connect(triangles)
+
+
+def joined(points, triangles, table):
+    """On one face."""
+    return quality.JoinedTriangles(points, triangles, np.zeros(len(triangles), np.int32), 1, *table)
 
 
 @given(seeds)
@@ -34,9 +39,8 @@ def test_fans_join_corners_across_edges_of_two(seed):
     ])  # fmt: skip
     labels = components(len(corners), links)
     heads = corners[labels == np.arange(len(corners))]
-    found = quality.triangle_fans(triangles, len(points), table.half_edges[table.uses == 2])
+    _, _, _, found, *_, clashing = joined(points, triangles, table).topology(NO_CHAINS)
     assert (found == np.bincount(heads, minlength=len(points))).all()
-    clashing = quality.clashing_edges(triangles, table.half_edges, table.uses)
     assert clashing.tolist() == np.flatnonzero(table.uses == 2)[same].tolist()
 
 
@@ -49,32 +53,14 @@ def test_repeated_triangles_are_seen_whatever_their_order(seed):
     assert quality.has_repeated_triangles(again, len(points))
 
 
-@settings(max_examples=20)
-@given(seeds)
-def test_lengths_angles_and_faces_are_those_of_numpy(seed):
-    rng, points, triangles, table = soup(seed)
-    a, b = points[table.edges].transpose(1, 0, 2)
-    lengths = quality.edge_lengths(points, table.edges)
-    assert np.allclose(lengths, np.linalg.norm(b - a, axis=1), rtol=1e-15)
-    faces = rng.integers(0, 3, len(triangles)).astype(np.int32)
-    first, second = faces[table.half_edges // 3].T
-    within = np.flatnonzero((table.uses == 2) & (first == second))
-    edges, own, degrees = quality.angles_within_faces(
-        points, triangles, faces, table.half_edges, table.uses
-    )
-    assert edges.tolist() == within.tolist() and own.tolist() == first[within].tolist()
-    wanted = np.degrees(dihedral_angles(points, triangles, table.half_edges[within]))
-    assert degrees.tolist() == wanted.tolist()
-
-
 def rim_losses(points, triangles, sides, sagitta, far):
     """Of rims, rows of ``sides``, each with a sagitta; (k,) and of the faces, one a triangle."""
     faces = np.arange(len(triangles), dtype=np.int32)
     uses = 1 + (sides[:, 1] >= 0).astype(np.int32)
-    rows = np.arange(len(sides))
-    return quality.rim_losses(
-        points, triangles, faces, sides, uses, rows, sagitta, far, 0.1, len(faces)
-    )
+    rows, corners = np.arange(len(sides)), triangles.ravel()
+    ends = np.stack([corners[sides[:, 0]]] * 2, axis=1)  # nobody asks for them
+    mesh = quality.JoinedTriangles(points, triangles, faces, len(faces), ends, sides, uses)
+    return mesh.rim_losses(rows, sagitta, far, 0.1)
 
 
 def test_rims_lose_their_length_times_the_farther_of_sagitta_and_slanted_distance():
@@ -97,8 +83,8 @@ def test_rims_are_free_edges_and_those_with_a_sagitta(seed):
     faces = rng.integers(0, 3, len(triangles)).astype(np.int32)
     rows = rng.integers(-1, len(table.edges), 10)
     sagitta, far = rng.random(10), rng.random(len(triangles))
-    given = points, triangles, faces, table.half_edges, table.uses
-    lost, of_faces = quality.rim_losses(*given, rows, sagitta, far, 0.1, 3)
+    mesh = quality.JoinedTriangles(points, triangles, faces, 3, *table)
+    lost, of_faces = mesh.rim_losses(rows, sagitta, far, 0.1)
     rim = table.uses == 1
     rim[rows[rows >= 0]] = True
     assert (lost[~rim] == 0.0).all() and (lost[rim] > 0.0).all()
@@ -107,7 +93,7 @@ def test_rims_are_free_edges_and_those_with_a_sagitta(seed):
     beside = faces[sides.ravel()[sides.ravel() >= 0] // 3]
     assert of_faces == pytest.approx(np.bincount(beside, both, 3))
     with pytest.raises(ValueError, match="edge"):
-        quality.rim_losses(*given, rows + len(table.edges), sagitta, far, 0.1, 3)
+        mesh.rim_losses(rows + len(table.edges), sagitta, far, 0.1)
 
 
 def test_sagittas_are_of_arcs_cut_in_segments_of_one_edge():
@@ -120,16 +106,14 @@ def test_sagittas_are_of_arcs_cut_in_segments_of_one_edge():
     assert quality.edge_sagittas(points, segments[::2], np.zeros(2, np.int32)).max() == 0.0
 
 
-@given(seeds)
-def test_changes_of_sizes_are_quotients_that_are_finite(seed):
-    rng = np.random.default_rng(seed)
-    apart = rng.integers(0, 4, 30).astype(float)
-    lengths = rng.choice([0.0, 1.0, 2.0, np.inf, np.nan], 30, p=[0.2, 0.3, 0.3, 0.1, 0.1])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        over = np.nan_to_num(apart / (0.5 * lengths), nan=0.0, posinf=0.0)
-    steepest, largest, above = quality.size_changes(apart, lengths, 0.5, 2.5)
-    assert (steepest, largest, above) == (over.argmax(), over.max(), (over > 2.5).sum())
-    assert quality.size_changes(apart, np.zeros(30), 0.5, 2.5)[0] == -1
+def is_sound(triangles, count, **changes):
+    """A mesh of so many vertices, with other arrays that are all right but for the changes."""
+    held = {
+        "points": np.ones((count, 3)), "sizes": np.ones(count), "mid_points": np.ones((2, 3)),
+        "uv": np.ones((count, 2)), "uv_triangles": np.clip(triangles, 0, count - 1),
+        "faces": np.zeros(len(triangles), np.int32), "surfaces": 1,
+    } | changes  # fmt: skip
+    return quality.is_sound(triangles=triangles, **held)
 
 
 @given(seeds)
@@ -139,38 +123,45 @@ def test_proper_triangles_have_three_corners_each_its_own_and_leave_none_out(see
     triangles = triangles.reshape(-1, 3).astype(np.int32)
     count = int(triangles.max()) + 1
     repeated = len(np.unique(np.sort(triangles, axis=1), axis=0)) < len(triangles)
-    assert quality.are_proper(triangles, count) is not repeated
-    assert not quality.are_proper(triangles, count + 1)  # a vertex of no triangle
-    assert not quality.are_proper(triangles, count - 1)  # a number out of range
+    assert is_sound(triangles, count) is not repeated
+    assert not is_sound(triangles, count + 1)  # a vertex of no triangle
+    assert not is_sound(triangles, count - 1)  # a number out of range
     for wrong in (-1, count, triangles[3, 1]):  # the last: a corner twice
         odd = triangles.copy()
         odd[3, 0] = wrong
-        assert not quality.are_proper(odd, count)
+        assert not is_sound(odd, count)
     twice = np.concatenate([triangles, triangles[rng.integers(12, size=1)][:, [2, 0, 1]]])
-    assert not quality.are_proper(twice, count)
+    assert not is_sound(twice, count)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("name, width", [("points", 3), ("sizes", 0), ("mid_points", 3), ("uv", 2)])
+def test_a_sound_mesh_is_finite(name, width, bad):
+    triangles = np.array([(0, 1, 2), (0, 2, 3)], np.int32)
+    assert is_sound(triangles, 4)
+    array = np.full((4, width) if width else 4, 1e308)
+    assert is_sound(triangles, 4, **{name: array})
+    array.flat[-1] = bad
+    assert not is_sound(triangles, 4, **{name: array})
+
+
+def test_a_sound_mesh_has_faces_parameters_and_sizes_that_there_are():
+    triangles = np.array([(0, 1, 2), (0, 2, 3)], np.int32)
+    nothing = dict.fromkeys(("sizes", "mid_points", "uv", "uv_triangles", "surfaces"))
+    assert is_sound(triangles, 4, **nothing)
+    beyond = np.array([0, 1], np.int32)
+    assert is_sound(triangles, 4, faces=beyond, surfaces=None)
+    assert not is_sound(triangles, 4, faces=beyond) and not is_sound(triangles, 4, faces=-beyond)
+    assert not is_sound(triangles, 4, uv_triangles=triangles + 1)
+    assert not is_sound(triangles, 4, uv_triangles=triangles - 1)
+    assert not is_sound(triangles, 4, sizes=np.array([1.0, 1.0, 0.0, 1.0]))
 
 
 def test_what_is_out_of_range_is_refused():
     _, points, triangles, table = soup(1)
-    wrong = np.array([[0, 3 * len(triangles)]], np.int32)
     for call in (
-        lambda: quality.triangle_fans(triangles, len(points), wrong),
-        lambda: quality.triangle_fans(triangles, 3, table.half_edges),
-        lambda: quality.edge_lengths(points[:2], table.edges),
+        lambda: joined(points[:2], triangles, table),
         lambda: quality.has_repeated_triangles(triangles, 2),
-        lambda: quality.clashing_edges(triangles, table.half_edges, table.uses[1:]),
     ):
         with pytest.raises(ValueError):
             call()
-
-
-@given(seeds)
-def test_sizes_at_the_ends_of_edges(seed):
-    rng, points, _, table = soup(seed)
-    sizes = rng.random(len(points))
-    mean, apart = quality.edge_sizes(table.edges, sizes)
-    first, second = sizes[table.edges].T
-    np.testing.assert_array_equal(mean, 0.5 * (first + second))
-    np.testing.assert_array_equal(apart, np.abs(first - second))
-    with pytest.raises(ValueError, match="edges"):
-        quality.edge_sizes(table.edges, sizes[:-3])

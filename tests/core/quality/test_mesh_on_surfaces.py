@@ -1,4 +1,4 @@
-"""Samples, creases, volumes and losses of a mesh on its surfaces: against what they stand for."""
+"""Samples, creases and volumes of a mesh on its surfaces: against what they stand for."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ from naive.triangle_distances import triangle_distances
 import surfmesh as sm
 from surfmesh._core.quality import (
     enclosed_volumes,
-    explained_losses,
     face_creases,
     far_corners,
     sampled_surface,
@@ -90,13 +89,6 @@ def test_volumes_of_boxes_far_away():
     assert found == pytest.approx([1.0, -8.0], rel=1e-14)
 
 
-def test_losses_grow_with_the_square_of_the_distance_up_to_the_whole():
-    points = np.array([(0, 0, 0), (2, 0, 0), (1, 1, 0)], float)
-    triangles = np.tile(np.arange(3, dtype=np.int32), (3, 1))
-    area, volume = explained_losses(points, triangles, np.ones(3), np.array([0.0, 0.1, 9.0]), 16.0)
-    assert area == pytest.approx([0.0, 0.16, 1.0]) and volume == pytest.approx([0.0, 0.1, 9.0])
-
-
 def test_what_is_out_of_range_is_refused(torus):
     right = arrays(torus)
     triangle, pairs = np.zeros(1, np.int32), torus.connectivity.half_edges
@@ -119,5 +111,3 @@ def test_what_is_out_of_range_is_refused(torus):
         face_creases(**right, edges=pairs - 1, angle=np.ones(1))
     with pytest.raises(ValueError):
         enclosed_volumes(right["points"], right["triangles"], right["faces"] + 1, np.zeros((1, 3)))
-    with pytest.raises(ValueError):
-        explained_losses(right["points"], right["triangles"], np.ones(1), np.ones(1), 16.0)

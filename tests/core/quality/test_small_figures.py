@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh._core.quality import (
-    corner_places,
-    edge_extremes,
-    face_angles,
-    solid_boxes,
-    unused_vertex,
-)
+from surfmesh._core.quality import corner_places, solid_boxes, unused_vertex
 
 
 def test_places_of_corners_are_distinct_pairs():
@@ -50,26 +44,3 @@ def test_boxes_of_solids_are_those_of_their_triangles():
     assert np.isposinf(low[3]).all() and np.isneginf(high[3]).all()
     with pytest.raises(ValueError, match="out of range"):
         solid_boxes(points, triangles, solids, 2)
-
-
-@pytest.mark.parametrize("most", [np.array([5.0]), np.array([1.0, 5.0, 9.0, np.inf])])
-def test_angles_by_face(most):
-    draw = np.random.default_rng(7)
-    faces, degrees = draw.integers(0, 3, 50).astype(np.int32), 10.0 * draw.random(50)
-    largest, above, number = face_angles(faces, degrees, most, 4)
-    limit = np.broadcast_to(most, 4)
-    for face in range(4):
-        here = degrees[faces == face]
-        assert largest[face] == here.max(initial=0.0) and number[face] == len(here)
-        assert above[face] == np.count_nonzero(here > limit[face])
-    degrees[3] = np.nan
-    assert np.isnan(face_angles(faces, degrees, most, 4)[0][faces[3]])
-
-
-def test_a_length_that_is_no_number_spoils_both_its_ends_alone():
-    edges = np.array([(0, 1), (1, 2), (2, 3)], np.int32)
-    longest, shortest = edge_extremes(edges, np.array([1.0, np.nan, 2.0]), 5)
-    assert np.isnan(longest).tolist() == [False, True, True, False, False]
-    assert np.isnan(shortest).tolist() == [False, True, True, False, False]
-    assert longest[[0, 3, 4]].tolist() == [1.0, 2.0, 0.0]
-    assert shortest[[0, 3, 4]].tolist() == [1.0, 2.0, np.inf]

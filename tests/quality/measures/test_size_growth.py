@@ -7,7 +7,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh import SurfaceMesh
-from surfmesh.quality.measures.lengths import edge_lengths, edge_sizes, size_growth
+from surfmesh.quality.measures.lengths import edge_figures, size_growth
 
 SLOPE = sm.Sizing(growth=1.5).gradient  # 2 (1.5 - 1) / (1.5 + 1) = 0.4
 
@@ -19,7 +19,7 @@ def strip(sizes, **more):
         points=points, triangles=[(0, 1, 2), (0, 2, 3)], uv_points=points[:, :2], sizes=sizes,
         sizing=sm.Sizing(growth=1.5), **more,
     )  # fmt: skip
-    return mesh, size_growth(mesh, edge_lengths(mesh), edge_sizes(mesh), SLOPE)
+    return mesh, size_growth(mesh, edge_figures(mesh, slope=SLOPE))
 
 
 def test_sizes_at_both_ends_of_edges():
