@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <span>
 
+#include "space/supporting_planes.hpp"
 #include "space/triangle_corners.hpp"
 #include "values/array.hpp"
 #include "values/conventions.hpp"
@@ -34,6 +35,8 @@ struct MeetingTriangles {
 /// not meet. The search ends where there are ``most`` pairs or a few more.
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
-                                          std::span<const std::int32_t> patches, std::size_t most);
+                                          std::span<const std::int32_t> patches,
+                                          std::span<const SupportingPatches> support,
+                                          std::size_t most);
 
 }  // namespace surfmesh
