@@ -1,5 +1,7 @@
 """Patches on one side of a flat one, against pairs of triangles one by one."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -121,17 +123,25 @@ def test_what_comes_back_to_the_plane_is_not(height, meets):
         assert not are_parted(patches, support, side, floor)
 
 
-@pytest.mark.parametrize("end, parted", [((2.0, 0.0), True), ((3.0, 1.0), False)])
-def test_a_wall_that_leaves_the_rim_within_the_plane(end, parted):
-    """Leaning over a floor, along its first side, and on to another vertex of its rim."""
-    floor = [(x, y, 0.0) for y in range(4) for x in range(4)]
+UP = (1.5, 0.2, 0.2)
+
+
+@pytest.mark.parametrize("bend, parted", [([(2.0, 0.0, 0.0)], True), ([(3.0, 1.0, 0.0)], False),
+                                          ([UP, (2.4, 0.3, 0.1)], True),
+                                          ([UP, (2.4, 0.3, 0.0)], False),
+                                          ([UP, (2.4, 0.3, -0.1)], False)])  # fmt: skip
+def test_a_wall_that_leaves_the_rim(bend, parted):
+    """Leaning over a floor: its foot along the first side, and on to places within or over it."""
+    points = [(float(x), float(y), 0.0) for y in range(4) for x in range(4)]
     squares = [(4 * k + i, 4 * k + i + 1, 4 * k + i + 5, 4 * k + i + 4)
                for k in range(3) for i in range(3)]  # fmt: skip
-    foot = [floor.index((*end, 0.0)), 1, 0]  # against the side of the floor
-    upper = [[len(floor) + 3 * k + i for i in range(3)] for k in range(2)]
-    points = floor + [(floor[v][0], floor[v][1] + z, z) for z in (0.5, 1.0) for v in foot]
-    for low, high in ((foot, upper[0]), upper):
-        squares += [(low[i], low[i + 1], high[i + 1], high[i]) for i in range(2)]
+    points += [p for p in bend if p not in points]
+    rows = [[points.index(p) for p in bend[::-1]] + [1, 0]]  # against the side of the floor
+    for rise in (0.5, 1.0):
+        rows.append([len(points) + k for k in range(len(rows[0]))])
+        points += [(x, y + rise / 2, z + rise) for x, y, z in (points[v] for v in rows[0])]
+    for low, high in pairwise(rows):
+        squares += [(low[k], low[k + 1], high[k + 1], high[k]) for k in range(len(low) - 1)]
     triangles = np.array([(q[0], *q[k : k + 2]) for q in squares for k in (1, 2)], np.int32)
     patches, support, pairs = found(np.array(points), triangles)
     assert sorted(set(patches.tolist())) == [0, 1]
