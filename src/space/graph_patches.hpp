@@ -8,8 +8,9 @@
 //
 // An open surface may be one as a whole, over the plane that the sum of its normals says. Otherwise
 // a patch is grown from triangle to triangle across edges of two that run along it in opposite
-// directions, in the very plane of the first if that is across an axis, and else in no such plane: who
-// lies beside a flat patch may do so on one side (supporting_planes.hpp). Its rim is swept once, edges in their order over the sweep line, by exact predicates.
+// directions: from one in a plane across an axis within that plane, from others over no such plane, as
+// what lies beside a flat patch may be on one side of it (supporting_planes.hpp). Its rim is swept
+// once, edges in their order over the sweep line, by exact predicates.
 // A patch that is not proved is none: whoever asks compares its triangles pair by pair.
 //
 // In: points and triangles, and the half-edges beside each other. Nothing changes. Normals of half a

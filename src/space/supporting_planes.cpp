@@ -79,7 +79,8 @@ class SupportSearch {
         }
     }
 
-    /// Is a triangle on one side of the plane of a flat patch, and what it has in it part of that?
+    /// Is a triangle on one side of the plane of a flat patch, and what it has in it part of that,
+    /// which is one side or one corner?
     [[nodiscard]] bool is_supported(std::size_t t, std::int32_t axis, std::int32_t flat,
                                     double side) const {
         const std::array<Vertex, 3> corners = {triangles_[t].a, triangles_[t].b, triangles_[t].c};

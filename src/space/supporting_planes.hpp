@@ -24,8 +24,8 @@
 
 namespace surfmesh {
 
-/// Flat patches whose planes support a patch, which is above them across x, y, z and below them
-/// across x, y, z; NIL: none.
+/// The flat patches whose planes support a patch: three across x, y, z that it is above, three that
+/// it is below; NIL: none.
 using SupportingPatches = std::array<std::int32_t, 6>;
 
 /// Of each patch.
