@@ -56,15 +56,8 @@ class PatchSearch {
             patch_.fill(0);
             return {std::move(patch_), Array<std::int32_t>(1, NIL), std::move(sides_)};
         }
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            if (grown_[t] != NIL) continue;
-            const Point3 n = normal(t);
-            const View view = view_of(n);
-            grow(static_cast<std::int32_t>(t), view);
-            if (members_.size() < FEWEST) continue;
-            number_as_patch(members_, view);
-            keep_if_simple(members_, view);
-        }
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            if (grown_[t] == NIL) look_from(static_cast<std::int32_t>(t));
         return {std::move(patch_), std::move(flat_across_), std::move(rims_)};
     }
 
@@ -113,6 +106,27 @@ class PatchSearch {
         return a == along(axis, points_[k.b]) && a == along(axis, points_[k.c]);
     }
 
+    /// Do two triangles beside each other turn by more than 60 degrees?
+    [[nodiscard]] bool are_creased(std::size_t s, std::size_t t) const {
+        const Point3 m = normal(s), n = normal(t);
+        const double along = dot(m, n);
+        return !(along > 0.0 && along * along > 0.25 * dot(m, m) * dot(n, n));
+    }
+
+    /// Find a patch that has a triangle, or parts of one. Where one across creases hides part of
+    /// itself, as a floor and walls seen aslant, others of the mesh would: all end at creases then.
+    void look_from(std::int32_t seed) {
+        const View view = view_of(normal(seed));
+        grow(seed, view);
+        if (members_.size() < FEWEST) return;
+        number_as_patch(members_, view);
+        if (keeps_rim()) return;
+        if (ends_at_creases_) return keep_halves(members_, view);
+        ends_at_creases_ = true;
+        for (const std::int32_t t : members_) patch_[t] = grown_[t] = NIL;
+        look_from(seed);
+    }
+
     /// Is it of the patch that is grown, if an edge of that is its own?
     [[nodiscard]] bool belongs(std::size_t t, const View& view) const {
         if (is_across(t, view.axis) != is_flat_) return false;
@@ -133,7 +147,8 @@ class PatchSearch {
                 const HalfEdge twin = twins_[3 * members_[k] + side];
                 const std::int32_t beside = twin == NIL ? NIL : twin / 3;
                 if (beside != NIL && grown_[beside] == seed) continue;
-                if (beside == NIL || grown_[beside] != NIL || !belongs(beside, view)) {
+                if (beside == NIL || grown_[beside] != NIL || !belongs(beside, view) ||
+                    (ends_at_creases_ && !is_flat_ && are_creased(members_[k], beside))) {
                     add_to_rim(members_[k], side, view);
                     continue;
                 }
@@ -148,20 +163,23 @@ class PatchSearch {
         flat_across_.push_back(is_flat_ ? view.axis : NIL);
     }
 
-    /// Are triangles with a number of their own, whose rim is gathered, a patch? If not, those of
-    /// both halves may be: where it winds round an axis, parts of it are.
-    void keep_if_simple(std::span<const std::int32_t> members, const View& view) {
-        if (is_simple_rim(rim_)) {
-            for (const HalfEdge side : sides_) rims_.push_back(side);
-            return;
-        }
+    /// Is the rim that is gathered simple, and its triangles with a number of their own a patch?
+    bool keeps_rim() {
+        if (!is_simple_rim(rim_)) return false;
+        for (const HalfEdge side : sides_) rims_.push_back(side);
+        return true;
+    }
+
+    /// Triangles are no patch, but those of both halves may be: where it winds round an axis, parts of
+    /// it are.
+    void keep_halves(std::span<const std::int32_t> members, const View& view) {
         for (const std::int32_t t : members) patch_[t] = NIL;
         const std::size_t half = members.size() / 2;
         for (const auto part : {members.first(half), members.subspan(half)}) {
             if (part.size() < FEWEST) continue;
             number_as_patch(part, view);
             gather_rim(part, view);
-            keep_if_simple(part, view);
+            if (!keeps_rim()) keep_halves(part, view);
         }
     }
 
@@ -195,8 +213,9 @@ class PatchSearch {
     Array<std::int32_t> grown_;    // the seed of each triangle
     Array<std::int32_t> members_;  // of the patch that is grown
     bool is_flat_ = false;         // it too
-    Array<RimEdge> rim_;           // of the triangles that are looked at
-    Array<HalfEdge> sides_;        // the same
+    bool ends_at_creases_ = false;
+    Array<RimEdge> rim_;     // of the triangles that are looked at
+    Array<HalfEdge> sides_;  // the same
     Array<std::int32_t> flat_across_;
     Array<HalfEdge> rims_;
 };
