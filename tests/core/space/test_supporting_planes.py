@@ -147,3 +147,13 @@ def test_a_wall_that_leaves_the_rim(bend, parted):
     assert sorted(set(patches.tolist())) == [0, 1]
     assert are_parted(patches, support, 0, len(triangles) - 1) is parted
     assert (len(pairs) == 0) is parted
+
+
+def test_turned_in_space_each_face_is_a_patch_of_its_own():
+    """Steps seen aslant hide parts of others: patches end at creases, and none is cut in halves."""
+    points, triangles, side, floor = ledge()
+    turned = np.ascontiguousarray(points @ np.linalg.qr([[1, 2, 3], [2, -1, 1], [0, 3, 5.0]])[0])
+    patches, support, pairs = found(turned, triangles)
+    assert len(pairs) == 0 and np.all(patches >= 0) and np.all(support == -1)
+    assert patches.max() + 1 == 11 + 1  # faces, and the number of what hid part of itself
+    assert patches[side] != patches[floor]
