@@ -17,6 +17,7 @@
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
 #include "space/point_tree.hpp"
+#include "space/supporting_planes.hpp"
 #include "space/triangle_distance.hpp"
 #include "space/triangle_pairs.hpp"
 #include "space/triangle_planes.hpp"
@@ -25,6 +26,8 @@ namespace surfmesh::binding {
 
 template <>
 struct Row<MeetingTriangles> : RowOf<std::int32_t, 2> {};
+template <>
+struct Row<SupportingPatches> : RowOf<std::int32_t, 6> {};
 template <>
 struct Row<TriangleCorners> : RowOf<std::int32_t, 3> {};
 template <>
@@ -55,6 +58,14 @@ void require_patches(const Vector<std::int32_t>& patches, std::size_t triangles)
             throw nb::value_error("patches has a number that is out of range");
 }
 
+void require_support(const Matrix<std::int32_t, 6>& support,
+                     const std::optional<Vector<std::int32_t>>& patches) {
+    if (!patches) throw nb::value_error("support without patches");
+    for (const std::int32_t patch : rows<std::int32_t>(*patches))
+        if (patch >= static_cast<std::int64_t>(support.shape(0)))
+            throw nb::value_error("support has fewer rows than there are patches");
+}
+
 void bind_triangle_pairs(nb::module_& m) {
     m.def(
         "orient_space",
@@ -71,8 +82,8 @@ void bind_triangle_pairs(nb::module_& m) {
         [](const Points3& corners) {
             require_rows(corners.shape(0), 6, "corners");
             const auto triangles = rows<Point3>(corners);
-            return triangles_meet(keyed({triangles[0], triangles[1], triangles[2]}),
-                                  keyed({triangles[3], triangles[4], triangles[5]}));
+            return triangles_meet({triangles[0], triangles[1], triangles[2]},
+                                  {triangles[3], triangles[4], triangles[5]});
         },
         nb::arg("corners"),
         "Do two triangles, the rows of (6, 3), finite, meet where they should not?");
@@ -80,37 +91,47 @@ void bind_triangle_pairs(nb::module_& m) {
         "graph_patches",
         [](const Points3& points, const Triangles& triangles, const HalfEdges& half_edges) {
             require_corners(triangles, points.shape(0));
-            Array<std::int32_t> patches;
-            {
-                const nb::gil_scoped_release released;
-                const auto corners = rows<TriangleCorners>(triangles);
+            const auto places = rows<Point3>(points);
+            const auto corners = rows<TriangleCorners>(triangles);
+            const auto [patches, support] = released([&] {
                 const Array<HalfEdge> twins =
                     opposite_half_edges(corners, rows<EdgeTable::Sides>(half_edges));
-                patches =
-                    graph_patches(rows<Point3>(points), corners, {twins.data(), twins.size()});
-            }
-            return view(patches);
+                GraphPatches found = graph_patches(places, corners, twins);
+                auto planes = supporting_patches(places, corners, twins, found);
+                return std::pair(std::move(found.of_triangles), std::move(planes));
+            });
+            return std::tuple(view(patches), view(support));
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"),
-        "The number (m,) of each triangle's patch that cannot meet itself, -1 where none is proved."
-        "\n\npoints (n, 3), finite; triangles (m, 3); half_edges (ne, 2) as of ``edge_table``.");
+        "The number (m,) of each triangle's patch that cannot meet itself, -1 where none is "
+        "proved; "
+        "the flat patches (k, 6) whose planes each patch is above, across x, y, z, and below, "
+        "without meeting them, -1: none.\n\npoints (n, 3), finite; triangles (m, 3); half_edges "
+        "(ne, 2) as of ``edge_table``.");
     m.def(
         "meeting_triangles",
         [](const Points3& points, const Triangles& triangles, std::size_t most,
-           const std::optional<Vector<std::int32_t>>& patches) {
+           const std::optional<Vector<std::int32_t>>& patches,
+           const std::optional<Matrix<std::int32_t, 6>>& support) {
             require_corners(triangles, points.shape(0));
             if (patches) require_patches(*patches, triangles.shape(0));
+            if (support) require_support(*support, patches);
             const auto found = released([&] {
                 return meeting_triangles(
                     rows<Point3>(points), rows<TriangleCorners>(triangles),
-                    patches ? rows<std::int32_t>(*patches) : std::span<const std::int32_t>{}, most);
+                    patches ? rows<std::int32_t>(*patches) : std::span<const std::int32_t>{},
+                    support ? rows<SupportingPatches>(*support)
+                            : std::span<const SupportingPatches>{},
+                    most);
             });
             return view(found);
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("most"), nb::arg("patches") = nb::none(),
+        nb::arg("support") = nb::none(),
         "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\npoints "
         "(n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few "
-        "more. patches (m,): those of one number that is not -1 do not meet (``graph_patches``).");
+        "more. patches (m,): those of one number that is not -1 do not meet, nor those of a patch "
+        "those of one in its row of support (k, 6): both of ``graph_patches``.");
 }
 
 void bind_edge_table(nb::module_& m) {

@@ -284,14 +284,13 @@ bool are_one_patch(std::span<const std::int32_t> patches) {
 class Search {
   public:
     Search(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
-           std::span<const std::int32_t> patches, std::size_t most)
+           std::span<const std::int32_t> patches, std::span<const SupportingPatches> support,
+           std::size_t most)
         : points_(points),
           triangles_(triangles),
+          support_(support),
           tree_(tree_over(points, triangles, patches)),
-          most_(most) {
-        keys_.reserve(points.size());
-        for (const Point3 p : points) keys_.push_back(corner_key(p));
-    }
+          most_(most) {}
 
     Array<MeetingTriangles> run() {
         if (most_ > 0 && !triangles_.empty()) within(tree_.levels.size() - 1, 0);
@@ -300,15 +299,23 @@ class Search {
 
   private:
     [[nodiscard]] bool is_done() const { return found_.size() >= most_; }
-    /// Do all triangles below two groups of a level belong to one patch?
-    [[nodiscard]] bool are_of_one_patch(std::size_t level, std::size_t a, std::size_t b) const {
-        const Array<std::int32_t>& patches = tree_.levels[level].patches;
-        return patches[a] != NIL && patches[a] == patches[b];
+    /// Do all triangles below each of two groups of a level belong to one patch, and these patches,
+    /// or this one, surely not meet?
+    [[nodiscard]] bool are_apart(std::size_t level, std::size_t a, std::size_t b) const {
+        const std::int32_t own = tree_.levels[level].patches[a];
+        const std::int32_t other = tree_.levels[level].patches[b];
+        if (own == NIL || other == NIL) return false;
+        return own == other || supports(own, other) || supports(other, own);
+    }
+    [[nodiscard]] bool supports(std::int32_t flat, std::int32_t patch) const {
+        if (support_.empty()) return false;
+        const SupportingPatches& there = support_[patch];
+        return std::find(there.begin(), there.end(), flat) != there.end();
     }
 
     /// What lies below a group, with itself.
     void within(std::size_t level, std::size_t group) {
-        if (are_of_one_patch(level, group, group)) return;
+        if (are_apart(level, group, group)) return;
         if (level > 0)
             for (std::size_t k = 0; k < WIDTH; ++k)
                 if (const std::size_t child = WIDTH * group + k; child < groups_below(level))
@@ -343,30 +350,31 @@ class Search {
     void go_down(std::size_t level, std::size_t one, std::size_t first, std::uint32_t places) {
         for (; places != 0; places &= places - 1) {
             const std::size_t other = first + static_cast<std::size_t>(std::countr_zero(places));
-            if (!are_of_one_patch(level, one, other)) between(level, one, other);
+            if (!are_apart(level, one, other)) between(level, one, other);
         }
     }
 
     /// One triangle with those at some places of a leaf: bits of ``places``.
     void look_at(std::size_t s, std::size_t first, std::uint32_t places) {
         const std::int32_t a = tree_.order[s];
-        const KeyedTriangle own = keyed(a);
+        const TriangleCorners own = triangles_[a];
         for (; places != 0; places &= places - 1) {
             const auto place = static_cast<std::size_t>(std::countr_zero(places));
             const std::int32_t b = tree_.order[first + place];
-            if (triangles_meet(own, keyed(b))) found_.push_back({std::min(a, b), std::max(a, b)});
+            if (are_parted_neighbours(points_, own, triangles_[b])) continue;
+            if (triangles_meet(in_space(own), in_space(triangles_[b])))
+                found_.push_back({std::min(a, b), std::max(a, b)});
         }
     }
 
-    [[nodiscard]] KeyedTriangle keyed(std::int32_t triangle) const {
-        const TriangleCorners& t = triangles_[triangle];
-        return {{points_[t.a], points_[t.b], points_[t.c]}, {keys_[t.a], keys_[t.b], keys_[t.c]}};
+    [[nodiscard]] Triangle3 in_space(const TriangleCorners& t) const {
+        return {points_[t.a], points_[t.b], points_[t.c]};
     }
 
     std::span<const Point3> points_;
     std::span<const TriangleCorners> triangles_;
+    std::span<const SupportingPatches> support_;
     BoxTree tree_;
-    Array<std::uint32_t> keys_;  // of the points
     std::size_t most_;
     Array<MeetingTriangles> found_;
 };
@@ -375,9 +383,11 @@ class Search {
 
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
-                                          std::span<const std::int32_t> patches, std::size_t most) {
+                                          std::span<const std::int32_t> patches,
+                                          std::span<const SupportingPatches> support,
+                                          std::size_t most) {
     if (are_one_patch(patches)) return {};
-    return Search(points, triangles, patches, most).run();
+    return Search(points, triangles, patches, support, most).run();
 }
 
 }  // namespace surfmesh

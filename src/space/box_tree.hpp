@@ -10,12 +10,14 @@
 //
 // What lies below two groups of one level is compared where their boxes have a point in common,
 // child with child, and what lies below one group with itself; but not where all of it belongs to
-// one patch that cannot meet itself (graph_patches.hpp).
+// one patch that cannot meet itself (graph_patches.hpp), or to two of which one supports the other
+// (supporting_planes.hpp).
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "space/supporting_planes.hpp"
 #include "space/triangle_corners.hpp"
 #include "values/array.hpp"
 #include "values/conventions.hpp"
@@ -31,9 +33,12 @@ struct MeetingTriangles {
 /// no order that means anything.
 ///
 /// All coordinates are finite. patches: a number for each triangle, or NIL; those of one number do
-/// not meet. The search ends where there are ``most`` pairs or a few more.
+/// not meet. support: of each patch, or nothing. The search ends where there are ``most`` pairs or a
+/// few more.
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
-                                          std::span<const std::int32_t> patches, std::size_t most);
+                                          std::span<const std::int32_t> patches,
+                                          std::span<const SupportingPatches> support,
+                                          std::size_t most);
 
 }  // namespace surfmesh

@@ -8,7 +8,9 @@
 //
 // An open surface may be one as a whole, over the plane that the sum of its normals says. Otherwise
 // a patch is grown from triangle to triangle across edges of two that run along it in opposite
-// directions. Its rim is swept once, edges in their order over the sweep line, by exact predicates.
+// directions: from one in a plane across an axis within that plane, from others over no such plane, as
+// what lies beside a flat patch may be on one side of it (supporting_planes.hpp). Its rim is swept
+// once, edges in their order over the sweep line, by exact predicates.
 // A patch that is not proved is none: whoever asks compares its triangles pair by pair.
 //
 // In: points and triangles, and the half-edges beside each other. Nothing changes. Normals of half a
@@ -27,11 +29,17 @@
 
 namespace surfmesh {
 
-/// The number of the patch of each triangle, or NIL.
-///
+struct GraphPatches {
+    Array<std::int32_t> of_triangles;  // the number of each one's, or NIL
+    Array<std::int32_t> flat_across;   // of each patch the axis that its plane is across, or NIL
+    Array<HalfEdge> rims;              // half-edges beside which there is nothing of their patch
+
+    [[nodiscard]] std::int32_t of(HalfEdge e) const { return e == NIL ? NIL : of_triangles[e / 3]; }
+};
+
 /// twins: of each half-edge 3 t + k the one that runs along the same edge the other way, or NIL.
-Array<std::int32_t> graph_patches(std::span<const Point3> points,
-                                  std::span<const TriangleCorners> triangles,
-                                  std::span<const HalfEdge> twins);
+GraphPatches graph_patches(std::span<const Point3> points,
+                           std::span<const TriangleCorners> triangles,
+                           std::span<const HalfEdge> twins);
 
 }  // namespace surfmesh

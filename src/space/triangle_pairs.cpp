@@ -24,6 +24,18 @@ int side_of_plane(Point3 origin, Point3 p, Point3 w) {
     return along < -margin ? -1 : 0;
 }
 
+double largest(Point3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// Has a plane through 0, that between the two middles, surely b and c on one side and d and e on
+/// the other? The four are differences, rounded once.
+bool are_parted_between(Point3 b, Point3 c, Point3 d, Point3 e) {
+    const Point3 w = b + c - d - e;
+    const double longest =
+        std::max(std::max(largest(b), largest(c)), std::max(largest(d), largest(e)));
+    const double margin = MARGIN * longest * norm_1(w) + UNDERFLOW_BOUND;
+    return std::min(dot(w, b), dot(w, c)) > margin && std::max(dot(w, d), dot(w, e)) < -margin;
+}
+
 /// Unit vector from a to b; zero where they coincide.
 Point3 direction(Point3 a, Point3 b) {
     const Point3 d = b - a;
@@ -152,26 +164,17 @@ struct SharedCorners {
     std::size_t before[2] = {0, 0}, last[2] = {0, 0};
 };
 
-/// The bits of a coordinate; 0 and -0, which are one place, have the same.
-std::uint64_t unsigned_bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
-
-/// Found by their keys, and looked at where these are the same.
-SharedCorners shared_corners(const KeyedTriangle& s, const KeyedTriangle& t) {
-    unsigned alike = 0;  // bit 3 k + n: the keys of corner k of s and of corner n of t
-    for (unsigned k = 0; k < 3; ++k)
-        for (unsigned n = 0; n < 3; ++n)
-            alike |= static_cast<unsigned>(s.keys[k] == t.keys[n]) << (3 * k + n);
+SharedCorners shared_corners(const Triangle3& s, const Triangle3& t) {
     SharedCorners shared;
-    for (unsigned done = 3; alike != 0; alike &= alike - 1) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(alike));
-        const unsigned k = bit / 3, n = bit % 3;
-        if (k == done || !are_same(s.corners[k], t.corners[n])) continue;
-        ++shared.count;
-        std::copy(shared.last, shared.last + 2, shared.before);
-        shared.last[0] = k;
-        shared.last[1] = n;
-        done = k;
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t n = 0; n < 3; ++n) {
+            if (!are_same(s[k], t[n])) continue;
+            ++shared.count;
+            std::copy(shared.last, shared.last + 2, shared.before);
+            shared.last[0] = k;
+            shared.last[1] = n;
+            break;
+        }
     return shared;
 }
 
@@ -204,20 +207,23 @@ bool are_folded(const CommonSide& side, int axis) {
 
 }  // namespace
 
-std::uint32_t corner_key(Point3 p) {
-    constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
-    const std::uint64_t mixed =
-        ((unsigned_bits_of(p.x) * ODD ^ unsigned_bits_of(p.y)) * ODD ^ unsigned_bits_of(p.z)) * ODD;
-    return static_cast<std::uint32_t>(mixed >> 32);
+bool are_parted_neighbours(std::span<const Point3> points, const TriangleCorners& s,
+                           const TriangleCorners& t) {
+    const std::array<Vertex, 5> of_s = {s.a, s.b, s.c, s.a, s.b}, of_t = {t.a, t.b, t.c, t.a, t.b};
+    unsigned alike = 0;  // bit 3 k + n: corner k of s is corner n of t
+    for (unsigned k = 0; k < 3; ++k)
+        for (unsigned n = 0; n < 3; ++n)
+            alike |= static_cast<unsigned>(of_s[k] == of_t[n]) << (3 * k + n);
+    if (alike == 0 || (alike & (alike - 1)) != 0) return false;
+    const auto bit = static_cast<unsigned>(std::countr_zero(alike));
+    const unsigned k = bit / 3, n = bit % 3;
+    const Point3 a = points[of_s[k]];
+    return are_parted_between(points[of_s[k + 1]] - a, points[of_s[k + 2]] - a,
+                              points[of_t[n + 1]] - a, points[of_t[n + 2]] - a);
 }
 
-KeyedTriangle keyed(const Triangle3& corners) {
-    return {corners, {corner_key(corners[0]), corner_key(corners[1]), corner_key(corners[2])}};
-}
-
-bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
-    const Triangle3 &s = one.corners, &t = other.corners;
-    const SharedCorners shared = shared_corners(one, other);
+bool triangles_meet(const Triangle3& s, const Triangle3& t) {
+    const SharedCorners shared = shared_corners(s, t);
     // two corners of s in one place, that of a corner of t: it has no area
     if (shared.count > 1 && shared.before[1] == shared.last[1]) return false;
     const std::size_t a = shared.last[0], d = shared.last[1];

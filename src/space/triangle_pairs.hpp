@@ -13,25 +13,21 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <span>
 
+#include "space/triangle_corners.hpp"
 #include "values/point.hpp"
 
 namespace surfmesh {
 
 using Triangle3 = std::array<Point3, 3>;
 
-/// A triangle with a number for each corner, by its place: corners at one place have one number,
-/// and others seldom the same, so that most pairs of corners are told apart at once.
-struct KeyedTriangle {
-    Triangle3 corners;
-    std::array<std::uint32_t, 3> keys;
-};
-
-std::uint32_t corner_key(Point3 p);
-KeyedTriangle keyed(const Triangle3& corners);
-
 /// Do two triangles with finite corners meet where they should not?
-bool triangles_meet(const KeyedTriangle& s, const KeyedTriangle& t);
+bool triangles_meet(const Triangle3& s, const Triangle3& t);
+
+/// Do triangles of a mesh that share one vertex surely not meet, by a plane through it that is
+/// between them? False for all others; what it says is true whatever lies at one place.
+bool are_parted_neighbours(std::span<const Point3> points, const TriangleCorners& s,
+                           const TriangleCorners& t);
 
 }  // namespace surfmesh

@@ -18,18 +18,18 @@ def triangles_meet(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 
     Do two triangles, the rows of (6, 3), finite, meet where they should not?
     """
 
-def graph_patches(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+def graph_patches(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 6))]]:
     """
-    The number (m,) of each triangle's patch that cannot meet itself, -1 where none is proved.
+    The number (m,) of each triangle's patch that cannot meet itself, -1 where none is proved; the flat patches (k, 6) whose planes each patch is above, across x, y, z, and below, without meeting them, -1: none.
 
     points (n, 3), finite; triangles (m, 3); half_edges (ne, 2) as of ``edge_table``.
     """
 
-def meeting_triangles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int, patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+def meeting_triangles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int, patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, support: Annotated[NDArray[numpy.int32], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
     """
     Pairs (k, 2) of triangles that meet where they should not, the lower first.
 
-    points (n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few more. patches (m,): those of one number that is not -1 do not meet (``graph_patches``).
+    points (n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few more. patches (m,): those of one number that is not -1 do not meet, nor those of a patch those of one in its row of support (k, 6): both of ``graph_patches``.
     """
 
 def edge_table(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:

@@ -1,8 +1,9 @@
 """Triangles that meet where they share nothing: every pair, by an exact test.
 
 Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. Patches
-that are proved not to meet themselves are skipped within (``src/space/graph_patches.hpp``). What
-only comes near, or touches in a corner at the very same place, does not meet.
+that are proved not to meet themselves are skipped within (``src/space/graph_patches.hpp``), and so
+are flat ones with those on one side of them (``src/space/supporting_planes.hpp``). What only comes
+near, or touches in a corner at the very same place, does not meet.
 """
 
 from dataclasses import dataclass
@@ -49,10 +50,9 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
 def _meeting(
     points: NDArray[np.float64], triangles: NDArray[np.int32], table: Connectivity
 ) -> NDArray[np.int32]:
-    """(k, 2) pairs in no order; patches that are graphs over a plane are not looked at within."""
-    return meeting_triangles(
-        points, triangles, MOST, graph_patches(points, triangles, table.half_edges)
-    )
+    """(k, 2) pairs in no order; what patches prove is not looked at."""
+    patches, support = graph_patches(points, triangles, table.half_edges)
+    return meeting_triangles(points, triangles, MOST, patches, support)
 
 
 def _meeting_curved(mesh: SurfaceMesh) -> NDArray[np.int32]:

@@ -68,15 +68,15 @@ def planted(seed: int) -> tuple[np.ndarray, np.ndarray]:
 def test_no_pair_of_a_patch_meets(seed):
     points, triangles = planted(seed)
     pairs = meeting_triangles(points, triangles, 10**6)
-    patches = graph_patches(points, triangles, edge_table(triangles)[1])
+    patches, support = graph_patches(points, triangles, edge_table(triangles)[1])
     own, other = patches[pairs].T
     assert not np.any((own == other) & (own >= 0))
-    with_patches = meeting_triangles(points, triangles, 10**6, patches)
+    with_patches = meeting_triangles(points, triangles, 10**6, patches, support)
     assert {tuple(p) for p in with_patches.tolist()} == {tuple(p) for p in pairs.tolist()}
 
 
 def sheets_are_one_patch(points, triangles):
-    patches = graph_patches(points, triangles, edge_table(triangles)[1])
+    patches, _ = graph_patches(points, triangles, edge_table(triangles)[1])
     return len(set(patches.tolist())) == 1 and patches[0] >= 0
 
 
@@ -96,7 +96,7 @@ def test_a_ramp_that_lies_over_itself_is_no_patch(turns, whole):
     (s, t), triangles = grid(4, 60)[0].T, grid(4, 60)[1]
     angle, radius = 2 * np.pi * turns * s, 1.0 - 0.5 * t
     ramp = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.2 * s], axis=1)
-    patches = graph_patches(ramp, triangles, edge_table(triangles)[1])
+    patches, _ = graph_patches(ramp, triangles, edge_table(triangles)[1])
     assert (len(set(patches.tolist())) == 1) is whole
     ramp[:, 2] = 0.0  # the same flat: triangles of the second turn lie on those of the first
     mesh = SurfaceMesh(points=ramp, triangles=triangles)
@@ -125,7 +125,7 @@ def test_a_disc_within_a_disc_is_no_patch_of_both():
     large, small = np.stack([s, t, 0 * s], 1), np.stack([0.2 + s / 3, 0.2 + t / 3, 0 * s], 1)
     points = np.concatenate([large, small])
     both = np.concatenate([triangles, triangles + len(large)])
-    patches = graph_patches(points, both, edge_table(both)[1])
+    patches, _ = graph_patches(points, both, edge_table(both)[1])
     assert set(patches[: len(triangles)]).isdisjoint(patches[len(triangles) :])
     mesh = SurfaceMesh(points=points, triangles=both)
     assert len(meeting_pairs(mesh)) == len(meeting_triangles(points, both, 10**6)) > 0
@@ -136,7 +136,7 @@ def test_half_edges_that_lie_are_left_out():
     count = 3 * len(triangles)
     lies = np.random.default_rng(0).integers(-2, count + 2, (count, 2)).astype(np.int32)
     pairs = meeting_triangles(points, triangles, 10**6)
-    patches = graph_patches(points, triangles, lies)
+    patches, _ = graph_patches(points, triangles, lies)
     assert not np.any((patches[pairs[:, 0]] == patches[pairs[:, 1]]) & (patches[pairs[:, 0]] >= 0))
 
 
@@ -146,5 +146,10 @@ def test_arguments_are_checked():
         meeting_triangles(points, triangles, 10, np.zeros(2, np.int32))
     with pytest.raises(ValueError, match="patches"):
         meeting_triangles(points, triangles, 10, np.full(len(triangles), -2, np.int32))
+    patches, support = graph_patches(points, triangles, edge_table(triangles)[1])
+    with pytest.raises(ValueError, match="fewer rows than there are patches"):
+        meeting_triangles(points, triangles, 10, patches, support[:0])
+    with pytest.raises(ValueError, match="support without patches"):
+        meeting_triangles(points, triangles, 10, support=support)
     with pytest.raises(ValueError, match="out of range"):
         graph_patches(points[:2], triangles, np.empty((0, 2), np.int32))
