@@ -11,7 +11,6 @@ bool is_finite(Point3 p) { return norm_1(p) < std::numeric_limits<double>::infin
 
 }  // namespace
 
-/// Most of l0 l1 a + l1 l2 b + l2 l0 c for barycentric l: within the triangle, or amid an edge.
 double most_between(double a, double b, double c) {
     const double amid = larger_or_nan(larger_or_nan(a, b), c) / 4.0;
     if (!(a * (b + c - a) > 0.0 && b * (c + a - b) > 0.0 && c * (a + b - c) > 0.0)) return amid;

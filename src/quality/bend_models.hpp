@@ -51,10 +51,11 @@ struct MiddleBends {
     /// Of bounds from below and above.
     static MiddleBends between(const Point3* lower, const Point3* upper);
 
-    /// Does linear interpolation over a triangle within the box err by so much at most along n, of
-    /// length 1? Not where a bound is not finite.
+    /// Does linear interpolation over a triangle within the box err by so much at most along n, times
+    /// its length? Not where a bound is not finite.
     [[nodiscard]] bool err_within(double limit, const ParameterTriangle& uv, Point3 n) const;
-    /// The same over all of a box of such a size, not a triangle alone.
+    /// The same over all of a box of such a size, not a triangle alone; bounds of a coordinate in
+    /// which n has no part need not be finite.
     [[nodiscard]] bool err_within(double limit, Point2 size, Point3 n) const;
 };
 
@@ -74,7 +75,6 @@ struct BendsAlong {
         return std::abs(uu * middle[0] + twice * middle[1] + vv * middle[2]) +
                (uu * half[0] + std::abs(twice) * half[1] + vv * half[2]);
     }
-    [[nodiscard]] double most(std::size_t j) const { return std::abs(middle[j]) + half[j]; }
 };
 
 inline MiddleBends MiddleBends::between(const Point3* lower, const Point3* upper) {
@@ -96,9 +96,14 @@ inline bool MiddleBends::err_within(double limit, const ParameterTriangle& uv, P
 }
 
 inline bool MiddleBends::err_within(double limit, Point2 size, Point3 n) const {
-    const BendsAlong bends(*this, n);
-    return size.x * size.x * bends.most(0) + 2.0 * size.x * size.y * bends.most(1) +
-               size.y * size.y * bends.most(2) <=
+    const auto times = [](double a, double b) { return a == 0.0 ? 0.0 : a * b; };
+    const auto most = [&](std::size_t j) {
+        const Point3 &m = middle[j], &h = half[j], by = sizes(n);
+        return std::abs(times(n.x, m.x) + times(n.y, m.y) + times(n.z, m.z)) +
+               (times(by.x, h.x) + times(by.y, h.y) + times(by.z, h.z));
+    };
+    return size.x * size.x * most(0) + 2.0 * size.x * size.y * most(1) +
+               size.y * size.y * most(2) <=
            8.0 * limit;
 }
 

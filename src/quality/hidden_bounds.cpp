@@ -137,10 +137,13 @@ class Search {
 
     /// Do bounds over a cell around a triangle say that it hides nothing?
     [[nodiscard]] static bool hides_nothing(const Sampled& t, const MiddleBends& bends) {
-        const double limit = BETWEEN * t.slack;
-        if (!t.whole) return bends.err_within(limit, t.uv, t.normal);
+        return t.whole ? hides_nothing_in_box(t, bends)
+                       : bends.err_within(BETWEEN * t.slack, t.uv, t.normal);
+    }
+    /// Nor all of the box around it?
+    [[nodiscard]] static bool hides_nothing_in_box(const Sampled& t, const MiddleBends& bends) {
         const ParameterBox box = box_of(t.uv);
-        return bends.err_within(limit, box.high - box.low, t.normal);
+        return bends.err_within(BETWEEN * t.slack, box.high - box.low, t.normal);
     }
 
     /// Bounds over ``cells_`` into ``bends_``; false where the surface has failed.
@@ -188,6 +191,7 @@ class Search {
         for (std::size_t i = 0; i < some.size(); ++i) {
             Sampled t{};
             if (!look_up(some[i].triangle, t) || hides_nothing(t, bends_[i])) continue;
+            if (hides_nothing_in_box(t, bends_[i])) continue;
             if (t.whole) {  // its parts are not all of its box
                 found_.bounded[t.number] = 0;
                 continue;
