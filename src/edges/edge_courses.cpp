@@ -76,22 +76,17 @@ EdgeCourses edge_courses(const CurvePieces& pieces, const PiecePlaces& places,
 
 namespace {
 
-constexpr std::size_t PLACES_AT_ONCE = 1024;  // whose derivatives stay in the cache
-
 /// Principal curvatures at a block of places of one surface, from ``start`` on; whether it has any.
 bool set_curvatures(const Surface& surface, std::span<const Point2> uv, std::size_t start,
                     SurfaceValues& values, SurfaceCurvatures& found) {
-    for (std::size_t first = 0; first < uv.size(); first += PLACES_AT_ONCE) {
-        const auto some = uv.subspan(first, std::min(PLACES_AT_ONCE, uv.size() - first));
-        if (values.evaluate(surface, some, 2) != SurfaceStatus::DONE) return false;
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            const FundamentalForms forms = fundamental_forms(
-                values[1][k], values[2][k], {values[3][k], values[4][k], values[5][k]});
-            const PrincipalCurvatures own = principal_curvatures(forms);
-            found.k1.data()[start + first + k] = own.k1;
-            found.k2.data()[start + first + k] = own.k2;
-            found.degenerate.data()[start + first + k] = forms.degenerate;
-        }
+    if (values.evaluate(surface, uv, 2) != SurfaceStatus::DONE) return false;
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+        const FundamentalForms forms = fundamental_forms(
+            values[1][k], values[2][k], {values[3][k], values[4][k], values[5][k]});
+        const PrincipalCurvatures own = principal_curvatures(forms);
+        found.k1.data()[start + k] = own.k1;
+        found.k2.data()[start + k] = own.k2;
+        found.degenerate.data()[start + k] = forms.degenerate;
     }
     return true;
 }

@@ -112,8 +112,6 @@ def _by_chord(
     k2: np.ndarray, *others: np.ndarray,
 ) -> list[np.ndarray]:  # fmt: skip
     """What a formula says of places (n,) that have a chord each."""
-    if len(chord) and (chord == chord[0]).all():
-        return list(formula(*_rows(k1, k2), float(chord[0]), *others))
     parts = []
     order = np.argsort(chord, kind="stable")
     for here in np.split(order, np.flatnonzero(np.diff(chord[order])) + 1):
