@@ -6,8 +6,10 @@
 // 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. The samples of T are its corners and the middles
 // of its edges among others: between them it errs by a quarter of that, more than they have seen.
 // Bounds over a box around many triangles hold for each of them, so boxes get smaller where they
-// have to, down to that of T alone, over which e bends by no more than its second derivatives say.
-// What is left is cut in four again and again. Along an edge of a long thin triangle the second
+// have to: where intervals leave some, models of second derivatives around these (bend_models.hpp),
+// then the box of T alone, over which e bends by no more than its second derivatives say. Triangles
+// that follow each other in a mesh are neighbours as a rule; where they are not, each is alone. What
+// is left is cut in four again and again. Along an edge of a long thin triangle the second
 // derivatives cancel as they do on the surface; over its box they would not.
 //
 // In: triangles of one surface, what may hide over each, and what its samples have seen. Out: for

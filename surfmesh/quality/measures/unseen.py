@@ -99,7 +99,7 @@ def unseen(
     for face, surface in bounded:
         triangles = np.flatnonzero(mesh.face_ids == face).astype(np.int32)
         if len(triangles):
-            found.append(_in_triangles(known, surface, triangles, fit, tolerances))
+            found.append(_in_triangles(known, surface, face, triangles, fit, tolerances))
             found.append(_along_rims(known, surface, face, fit, tolerances))
     triangle = np.concatenate([t for t, _ in found] or [np.empty(0, np.int64)])
     reached = np.concatenate([p.reached for _, p in found] or [np.empty(0)])
@@ -129,21 +129,20 @@ def _place(
 
 
 def _in_triangles(
-    known: KnownSurfaces, surface: BoundedSurface, triangles: NDArray[np.int32], fit: Deviation,
-    tolerances: Tolerances,
+    known: KnownSurfaces, surface: BoundedSurface, face: int, triangles: NDArray[np.int32],
+    fit: Deviation, tolerances: Tolerances,
 ) -> tuple[Rows, Pieces]:  # fmt: skip
     _, points, corners, uv_points, uv_corners, _ = known.arrays
-    expected = _expected(
-        known.mesh, triangles, fit, tolerances, lambda: _longest(known.points(triangles))
+    seen = fit.by_triangle.take(triangles)
+    tolerance = SLACK * _expected(
+        face, seen, fit, tolerances, lambda: _longest(known.points(triangles))
     )
     whole = _beside_poles(known, triangles)
     bounded = hidden_bounds(
         as_core_surface(surface), points, corners, uv_points, uv_corners, triangles,
-        SLACK * expected, fit.by_triangle[triangles], whole.view(np.uint8), LEVELS,
+        tolerance, seen, whole.view(np.uint8), LEVELS,
     )  # fmt: skip
-    return _of_triangles(
-        *_left(known, surface, triangles, SLACK * expected, whole, bounded == 0)
-    )  # fmt: skip
+    return _of_triangles(*_left(known, surface, triangles, tolerance, whole, bounded == 0))
 
 
 def _of_triangles(triangles: Rows, pieces: Pieces) -> tuple[Rows, Pieces]:
@@ -160,13 +159,13 @@ def _left(
     tolerance: NDArray[np.float64], whole: NDArray[np.bool_], is_left: NDArray[np.bool_],
 ) -> tuple[Rows, Pieces]:  # fmt: skip
     """What was found in triangles that are left, and in those with bent sides where some are."""
-    uv, parts = known.uv(triangles), None
-    if is_left.any():
+    of, parts = np.flatnonzero(is_left), None
+    if len(of):
         parts = _bent_parts(known, surface, triangles, whole, is_left)
     if parts is None:
-        of = np.flatnonzero(is_left)
-        corners, wholly = uv[of], whole[of]
+        corners, wholly = known.uv(triangles[of]), whole[of]
     else:
+        uv = known.uv(triangles)
         of = np.concatenate([np.flatnonzero(parts.straight), parts.rows[parts.pieces.owner]])
         corners = np.concatenate([uv[parts.straight], parts.pieces.uv])
         wholly = np.concatenate([whole[parts.straight], np.zeros(len(parts.pieces.uv), bool)])
@@ -195,8 +194,11 @@ def _bent_parts(
 ) -> _BentParts | None:  # fmt: skip
     """None where the sides of those that are left are straight enough in (u, v), or where no axis
     runs to an elongated pole."""
-    chart, uv = Chart.of(surface), known.uv(triangles)
-    if chart.core.scaling is None or not are_bent(surface, chart, uv[is_left]).any():
+    chart = Chart.of(surface)
+    if chart.core.scaling is None:
+        return None
+    uv = known.uv(triangles)
+    if not are_bent(surface, chart, uv[is_left]).any():
         return None
     corners = known.corners.uv_triangles[triangles]
     table = connect(np.ascontiguousarray(corners, np.int32))
@@ -240,7 +242,9 @@ def _along_rims(
         (point,) = surface.evaluate(uv[:, 0] + t * (uv[:, 1] - uv[:, 0]), 0)
         from_chord = np.einsum("idj,ij->id", normal, point - start)
         seen = np.maximum(seen, np.linalg.norm(from_chord, axis=1))
-    expected = _expected(mesh, triangle, fit, tolerances, lambda: length[some])
+    expected = _expected(
+        face, fit.by_triangle[triangle], fit, tolerances, lambda: length[some]
+    )  # fmt: skip
     pieces = Pieces.of(uv, start, normal, np.maximum(SLACK * expected, RIM_SLACK * seen))
     if len(uv):
         search_rims(surface, pieces, BOXES + BOXES_EACH * len(uv))
@@ -249,12 +253,12 @@ def _along_rims(
 
 
 def _expected(
-    mesh: SurfaceMesh, triangles: Rows, fit: Deviation, tolerances: Tolerances,
+    face: int, seen: NDArray[np.float64], fit: Deviation, tolerances: Tolerances,
     longest: Callable[[], NDArray[np.float64]],
 ) -> NDArray[np.float64]:  # fmt: skip
-    """(k,) the distance that is asked for, or that the samples have seen if it is more."""
-    chord = tolerances.at(tolerances.chord, mesh.face_ids[triangles])
-    asked = np.maximum(chord, fit.by_triangle[triangles])
+    """(k,) the distance that is asked for, or that the samples have ``seen`` (k,) if it is more."""
+    chord = tolerances.at(tolerances.chord, np.array([face]))
+    asked = np.maximum(chord, seen)
     if np.isfinite(asked).all():
         return asked
     length = longest()
@@ -269,6 +273,8 @@ def _longest(corners: NDArray) -> NDArray[np.float64]:
 def _beside_poles(known: KnownSurfaces, triangles: Rows) -> NDArray[np.bool_]:
     """(k,) triangles with a corner at a side that is one point: there others were dropped."""
     mesh, corners = known.mesh, known.corners
+    if np.array_equal(mesh.triangles, corners.uv_triangles):  # one place each
+        return np.zeros(len(triangles), bool)
     images = corner_places(
         mesh.triangles, corners.uv_triangles, len(mesh.points), len(corners.uv_points)
     )
