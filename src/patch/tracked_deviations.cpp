@@ -94,13 +94,18 @@ Array<Triangle> TrackedDeviations::farthest(const Array<Triangle>& triangles, do
 }
 
 void TrackedDeviations::start_round() {
+    if (edges_before_ != state_.edge_changes) note_corners();
+    is_changed_.fill(0);
+}
+
+void TrackedDeviations::note_corners() {
     const Array<Vertex>& now = state_.t.tri;  // into the memory of the round before
     if (before_.empty()) before_ = unfilled_with_room<Vertex>(now.size(), 6 * with_room(state_));
     before_.resize(now.size());
     for_each_block(now.size(), 3 * TRIANGLES_TOGETHER, [&](std::size_t first, std::size_t last) {
         std::copy(now.begin() + first, now.begin() + last, before_.begin() + first);
     });
-    is_changed_.fill(0);
+    edges_before_ = state_.edge_changes;
 }
 
 void TrackedDeviations::add_moved() {
@@ -108,24 +113,31 @@ void TrackedDeviations::add_moved() {
     for (const Vertex v : state_.moved) is_changed_[v] = 1;
 }
 
+/// The half-edges that start elsewhere than when the round began.
+Array<HalfEdge> TrackedDeviations::new_corners() const {
+    const Array<Vertex>& now = state_.t.tri;
+    if (edges_before_ == state_.edge_changes) return {};
+    return collect_by_blocks<HalfEdge>(
+        now.size(), CORNERS_COMPARED,
+        [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
+            if (std::equal(now.begin() + first, now.begin() + last, before_.begin() + first))
+                return;  // nearly always
+            for (std::size_t e = first; e < last; ++e)
+                if (now.data()[e] != before_.data()[e]) own.push_back(static_cast<HalfEdge>(e));
+        });
+}
+
 Array<Triangle> TrackedDeviations::changed(const Array<Triangle>& others) {
     const Array<Vertex>& now = state_.t.tri;
     is_changed_.resize(state_.t.xy.size(), 0);
     factor_.resize(state_.t.region.size(), 0.0F);
-    const Array<HalfEdge> new_corners = collect_by_blocks<HalfEdge>(
-        now.size(), CORNERS_COMPARED,
-        [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
-            if (last <= before_.size() &&
-                std::equal(now.begin() + first, now.begin() + last, before_.begin() + first))
-                return;  // nearly always
-            for (std::size_t e = first; e < last; ++e)
-                if (e >= before_.size() || now.data()[e] != before_.data()[e])
-                    own.push_back(static_cast<HalfEdge>(e));
-        });
-    for (const HalfEdge e : new_corners) {
+    before_.resize(now.size(), NIL);  // of new triangles all corners are
+    for (const HalfEdge e : new_corners()) {
         is_changed_[now[e]] = 1;
         factor_[e / 3] = 0.0F;
+        before_[e] = now[e];
     }
+    edges_before_ = state_.edge_changes;
     state_.find_stars();
     const Array<Triangle> around = triangles_at(state_.t, &state_.stars, is_changed_);
     const Array<Triangle> found =
