@@ -28,16 +28,16 @@ void add_triangle(const Triangulation& t, Triangle k, Stars& stars) {
 
 /// Of ``size`` values, whatever they are, with room for those of vertices that splits add.
 template <class T>
-void set_size(Array<T>& values, std::size_t size) {
+void resize_unfilled(Array<T>& values, std::size_t size) {
     if (values.empty()) values = unfilled_with_room<T>(size, size + size / ROOM_FOR_SPLITS);
     values.resize(size);
 }
 
-void set_size(const Triangulation& t, Stars& stars) {
-    set_size(stars.start, t.xy.size());
-    set_size(stars.frozen, t.xy.size());
-    set_size(stars.degree, t.xy.size());
-    set_size(stars.shared, t.parts.empty() ? 0 : t.xy.size());
+void resize(const Triangulation& t, Stars& stars) {
+    resize_unfilled(stars.start, t.xy.size());
+    resize_unfilled(stars.frozen, t.xy.size());
+    resize_unfilled(stars.degree, t.xy.size());
+    resize_unfilled(stars.shared, t.parts.empty() ? 0 : t.xy.size());
 }
 
 /// Forget the stars of vertices from ``first`` to ``end``.
@@ -74,7 +74,7 @@ void merge_into(Array<Triangle>& all, const Array<Triangle>& some) {
 }  // namespace
 
 void find_stars(const Triangulation& t, Stars& stars) {
-    set_size(t, stars);
+    resize(t, stars);
     const Array<Triangle> left = for_each_part(t, [&](const Part& part, Array<Triangle>& later) {
         clear(stars, part.first_vertex, part.end_vertex);
         for (Triangle k = part.first_triangle; k < part.end_triangle; ++k) {
