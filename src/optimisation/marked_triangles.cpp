@@ -41,12 +41,12 @@ std::optional<Array<Triangle>> triangles_at_few(const Triangulation& t, const St
 
 Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, double least,
                                 double at_apex) {
-    Array<std::uint8_t> folded(t.region.size(), 0);
+    auto folded = Array<std::uint8_t>::unfilled(t.region.size());
     for_each_block(t.region.size(), MARKED_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
             const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-            if (t.region[k] == DEAD || is_collapsed(s, a, b, c)) continue;
-            folded[k] = is_folded(s, a, b, c, least, at_apex);
+            folded[k] = t.region[k] != DEAD && !is_collapsed(s, a, b, c) &&
+                        is_folded(s, a, b, c, least, at_apex);
         }
     });
     return folded;
@@ -77,6 +77,15 @@ Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, 
                 if (t.region[k] != DEAD &&
                     is_shape_below(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2], least))
                     found.push_back(k);
+        });
+}
+
+Array<Triangle> triangles_below(const Triangulation& t, const Array<double>& shape, double least) {
+    return collect_by_blocks<Triangle>(
+        t.region.size(), MARKED_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+                if (shape[k] < least && t.region[k] != DEAD) found.push_back(k);
         });
 }
 

@@ -26,6 +26,9 @@ Array<Triangle> triangles_at(const Triangulation& t, const Stars* stars,
 /// The triangles with alpha below ``least``, in their order.
 Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least);
 
+/// The same by ``shape``, alpha of the triangles as swaps have last seen it.
+Array<Triangle> triangles_below(const Triangulation& t, const Array<double>& shape, double least);
+
 /// Make the corners of triangles with alpha below ``least`` active; returns how many there are.
 ///
 /// shape: alpha of the triangles that are not dirty, as swaps have seen it; or empty.

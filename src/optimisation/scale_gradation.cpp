@@ -48,31 +48,52 @@ void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
     }
 }
 
-bool has_marked_corner(const Triangulation& t, Triangle k, const Array<std::uint8_t>& marked) {
-    return marked[t.tri[3 * k]] != 0 || marked[t.tri[3 * k + 1]] != 0 ||
-           marked[t.tri[3 * k + 2]] != 0;
-}
-
-/// Of triangles in their order: would ``factor`` change no size across them, as all are now?
+/// Of triangles in their order those that a sweep looks at: across which ``factor`` would change a
+/// size, as all are when it begins, and from there on those at vertices whose sizes it changes.
 ///
 /// Threads find that of many, so that one has few left to sweep over in turn; one thread alone
-/// sweeps over all of them, and asks nothing before: none is returned.
-template <class Factor>
-Array<std::uint8_t> idle_triangles(const Triangulation& t, const Array<Triangle>& around,
-                                   const Array<std::uint8_t>& from, const Factor& factor) {
-    if (allowed_threads() < 2) return {};
-    auto idle = Array<std::uint8_t>::unfilled(around.size());
-    for_each_block(around.size(), SWEPT_TOGETHER, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            bool is_idle = true;
-            for_each_way(t, around.data()[i], [&](Vertex a, Vertex b) {
-                is_idle = is_idle && (from[a] == 0 || factor(a, b) == 1.0);
-            });
-            idle.data()[i] = is_idle;
-        }
-    });
-    return idle;
-}
+/// sweeps over all of them, and asks nothing before.
+class SweptTriangles {
+  public:
+    SweptTriangles(const Triangulation& t, const Stars& stars, const Array<Triangle>& all)
+        : t_(t), stars_(stars), all_(all) {}
+
+    template <class Factor>
+    void find(const Array<std::uint8_t>& from, const Factor& factor) {
+        if (allowed_threads() < 2) return;
+        open_ = Array<std::uint8_t>::unfilled(all_.size());
+        for_each_block(all_.size(), SWEPT_TOGETHER, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                bool is_open = false;
+                for_each_way(t_, all_.data()[i], [&](Vertex a, Vertex b) {
+                    is_open = is_open || (from[a] != 0 && factor(a, b) != 1.0);
+                });
+                open_.data()[i] = is_open;
+            }
+        });
+    }
+    /// The first place from i on, or the end.
+    [[nodiscard]] std::int32_t next(std::int32_t i) const {
+        return open_.empty() ? i : next_marked(open_, i, static_cast<std::int32_t>(open_.size()));
+    }
+    /// The size of v has changed.
+    void open_at(Vertex v) {
+        if (open_.empty()) return;
+        std::int32_t count = 0;
+        for_each_in_fan(t_, stars_.start[v], [&](HalfEdge e) {
+            const Triangle* const place = std::lower_bound(all_.begin(), all_.end(), e / 3);
+            if (place != all_.end() && *place == e / 3) open_[place - all_.begin()] = 1;
+            ++count;
+        });
+        if (count != stars_.degree[v]) open_.fill(1);  // two borders meet there: not all are known
+    }
+
+  private:
+    const Triangulation& t_;
+    const Stars& stars_;
+    const Array<Triangle>& all_;
+    Array<std::uint8_t> open_;  // of all; empty where it looks at each
+};
 
 /// Sweeps over the triangles at vertices whose sizes have changed in the sweep before.
 ///
@@ -83,19 +104,19 @@ void spread_scales(const Triangulation& t, const Stars& stars, Array<std::uint8_
                    const Factor& factor, const Change& change) {
     Array<Triangle> around = triangles_at(t, &stars, from);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
-        const Array<std::uint8_t> idle = idle_triangles(t, around, from, factor);
+        SweptTriangles swept(t, stars, around);
+        swept.find(from, factor);
         Array<std::uint8_t> is_changed(t.xy.size(), 0);
         bool changes = false;
-        for (std::size_t i = 0; i < around.size(); ++i) {
-            const Triangle k = around.data()[i];
-            const bool is_idle = !idle.empty() && idle.data()[i] != 0;
-            if (is_idle && (!changes || !has_marked_corner(t, k, is_changed))) continue;
-            for_each_way(t, k, [&](Vertex a, Vertex b) {
+        const auto end = static_cast<std::int32_t>(around.size());
+        for (std::int32_t i = swept.next(0); i < end; i = swept.next(i + 1)) {
+            for_each_way(t, around[i], [&](Vertex a, Vertex b) {
                 const double by = from[a] == 0 ? 1.0 : factor(a, b);
                 if (by == 1.0) return;
                 change(b, by);
                 is_changed[b] = 1;
                 changes = true;
+                swept.open_at(b);
             });
         }
         if (!changes) return;
@@ -122,8 +143,11 @@ void raise_towards(const Triangulation& t, SurfaceFrames& s, const Stars& stars,
 
 int grade_scales(const Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
                  double slope, bool around_all) {
-    Array<std::uint8_t> from(t.xy.size(), 0), found(t.xy.size(), 0);
-    for (Vertex v = 0; v < t.vertices(); ++v) from[v] = around_all || s.scale[v] < LOWERED ? 1 : 0;
+    Array<std::uint8_t> found(t.xy.size(), 0);
+    auto from = Array<std::uint8_t>::unfilled(t.xy.size());
+    for_each_block(from.size(), SWEPT_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) from[v] = around_all || s.scale[v] < LOWERED;
+    });
     const auto factor = [&](Vertex a, Vertex b) {
         const double by = factor_on(s, a, b, slope);
         return by < 1.0 ? by : 1.0;

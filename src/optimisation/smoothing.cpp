@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <vector>
 
 #include "triangulation/parts.hpp"
 
@@ -269,11 +271,92 @@ struct SmoothingPass {
         marks.dirty[v] = 1;
         if (squared > still * still) {
             marks.active[v] = 1;
-            for_each_in_star(t, m.start,
-                             [&](HalfEdge e) { marks.active[t.tri[next_half_edge(e)]] = 1; });
+            for_each_in_star(t, m.start, [&](HalfEdge e) {  // by several threads at once
+                std::atomic_ref(marks.active[t.tri[next_half_edge(e)]])
+                    .store(1, std::memory_order_relaxed);
+            });
         }
     }
 };
+
+/// Does a vertex before v that is not done yet have a triangle with it? Before ``first`` none is
+/// known to be done, from there on all but those of ``waiting``, which are in their order.
+bool waits_for_another(const Triangulation& t, Vertex v, HalfEdge start, Vertex first,
+                       const Array<Vertex>& waiting) {
+    bool waits = false;
+    for_each_in_star(t, start, [&](HalfEdge e) {
+        const Vertex p = t.tri[next_half_edge(e)];
+        waits =
+            waits || p < first || (p < v && std::binary_search(waiting.begin(), waiting.end(), p));
+    });
+    return waits;
+}
+
+/// Visit the vertices from ``first`` to ``end`` whose stars lie in several parts, but for those that
+/// have to wait for vertices before ``first`` or for each other.
+void visit_shared(const SmoothingPass& pass, Vertex first, Vertex end, Array<Vertex>& moved,
+                  Array<Vertex>& waiting) {
+    const Stars& stars = pass.stars;
+    MovingVertex m;
+    for (m.v = next_marked(stars.shared, first, end); m.v < end;
+         m.v = next_marked(stars.shared, m.v + 1, end)) {
+        if (stars.frozen[m.v] != 0 || stars.start[m.v] == NIL) continue;
+        if (waits_for_another(pass.t, m.v, stars.start[m.v], first, waiting))
+            waiting.push_back(m.v);
+        else
+            pass.visit(m, moved);
+    }
+}
+
+/// Visit all those from ``first`` on, one after the other.
+void visit_shared_alone(const SmoothingPass& pass, Vertex first, Array<Vertex>& moved) {
+    const Vertex end = pass.t.vertices();
+    MovingVertex m;
+    for (m.v = next_marked(pass.stars.shared, first, end); m.v < end;
+         m.v = next_marked(pass.stars.shared, m.v + 1, end))
+        pass.visit(m, moved);
+}
+
+/// Visit them by several threads as if it were one after the other, by number.
+///
+/// Each thread has a group of parts. A vertex depends on its neighbours with lower numbers: what has
+/// one in a group before its own waits until threads have done the others, and so does what has one
+/// that waits. No two threads come upon each other, and little is left for one alone.
+///
+///     group 0 | group 1       numbers a < d < b < c: b waits for a, and c for b; d does not
+///         a --|-- b -- c
+///             |     \\ d
+void visit_shared_by_threads(const SmoothingPass& pass, Array<Vertex>& moved) {
+    const Triangulation& t = pass.t;
+    const std::size_t parts = count_parts(t);
+    const std::size_t groups = std::min(parts, static_cast<std::size_t>(allowed_threads()));
+    const Vertex end = part_of(t, parts - 1).end_vertex;  // what splits have added comes after it
+    const auto first_of = [&](std::size_t group) {
+        return group == groups ? end : part_of(t, group * parts / groups).first_vertex;
+    };
+    std::vector<Array<Vertex>> done(groups), waiting(groups);
+    for_each_block(groups, 1, [&](std::size_t n, std::size_t) {
+        Array<Vertex> own, later;
+        visit_shared(pass, first_of(n), first_of(n + 1), own, later);
+        done[n].swap(own);
+        waiting[n].swap(later);
+    });
+    Array<Vertex> at_last;
+    MovingVertex m;
+    for (const Array<Vertex>& some : waiting) {
+        for (const Vertex v : some) {
+            m.v = v;
+            pass.visit(m, at_last);
+        }
+    }
+    visit_shared_alone(pass, end, at_last);
+    const auto before = static_cast<std::ptrdiff_t>(moved.size());
+    for (const Array<Vertex>& some : done)
+        for (const Vertex v : some) moved.push_back(v);
+    const auto middle = static_cast<std::ptrdiff_t>(moved.size());
+    for (const Vertex v : at_last) moved.push_back(v);
+    std::inplace_merge(moved.begin() + before, moved.begin() + middle, moved.end());
+}
 
 }  // namespace
 
@@ -301,11 +384,10 @@ void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks&
             }
         });
     if (t.parts.empty()) return;
-    MovingVertex m;
-    const Vertex end = t.vertices();
-    for (m.v = next_marked(stars.shared, 0, end); m.v < end;
-         m.v = next_marked(stars.shared, m.v + 1, end))
-        pass.visit(m, moved);
+    if (allowed_threads() < 2)
+        visit_shared_alone(pass, 0, moved);
+    else
+        visit_shared_by_threads(pass, moved);
 }
 
 }  // namespace surfmesh

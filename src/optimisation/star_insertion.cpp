@@ -1,6 +1,7 @@
 #include "optimisation/star_insertion.hpp"
 
 #include "optimisation/best_way.hpp"
+#include "optimisation/marked_triangles.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/worst_stars.hpp"
 #include "triangulation/local_operations.hpp"
@@ -148,10 +149,7 @@ Vertex insert_at_worst(Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
                        const Array<double>& shape, double least) {
     const Vertex first = t.vertices();
     NewStar star(t, s, marks);
-    Array<Triangle> worst;
-    for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] != DEAD && shape[k] < least) worst.push_back(k);
-    for (const Triangle k : worst) {
+    for (const Triangle k : triangles_below(t, shape, least)) {
         const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
         if (is_collapsed(s, a, b, c) || triangle_shape(s, a, b, c) >= least) continue;
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)

@@ -12,6 +12,7 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t SWAPS_TOGETHER = 1 << 14;  // triangles measured together
+constexpr std::size_t ROOM_FOR_SHAPES = 4;       // this part more, for what splits add
 constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
 constexpr double NEARER = 0.8;      // of the excess of a pair, which a swap leaves at most
 
@@ -185,7 +186,9 @@ struct DegreeSwaps {
 /// Measure the triangles with a dirty corner anew.
 void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const Stars* stars,
                    const VertexMarks& marks, Array<double>& shape) {
-    if (shape.empty()) shape = filled_by_threads(t.region.size(), 1.0);
+    if (shape.empty())
+        shape = filled_by_threads(t.region.size(), 1.0,
+                                  t.region.size() + t.region.size() / ROOM_FOR_SHAPES);
     shape.resize(t.region.size(), 1.0);
     const Array<Triangle> dirty = triangles_at(t, stars, marks.dirty);
     for_each_block(dirty.size(), SWAPS_TOGETHER, [&](std::size_t first, std::size_t last) {
@@ -238,8 +241,7 @@ SwapsMade swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars,
     std::atomic<bool> known = true;
     const DegreeSwaps swaps{t, s, stars, marks, least, known};
     int made = 0;
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (!(shape[k] < bad) || t.region[k] == DEAD) continue;
+    for (const Triangle k : triangles_below(t, shape, bad)) {
         if (!stars.frozen[t.tri[3 * k]] && !stars.frozen[t.tri[3 * k + 1]] &&
             !stars.frozen[t.tri[3 * k + 2]])
             continue;

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "optimisation/marked_triangles.hpp"
 #include "optimisation/regular_degrees.hpp"
 #include "triangulation/local_operations.hpp"
 
@@ -163,8 +164,8 @@ template <class Remove>
 int remove_corners(const Triangulation& t, const SurfaceFrames& s, const Array<double>& shape,
                    double least, Remove remove) {
     int removed = 0;
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (t.region[k] == DEAD || !(shape[k] < least)) continue;
+    for (const Triangle k : triangles_below(t, shape, least)) {
+        if (t.region[k] == DEAD) continue;
         if (is_collapsed(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2])) continue;
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
             if (remove(t.tri[e])) {

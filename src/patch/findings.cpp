@@ -21,6 +21,8 @@ constexpr double SUSPECT = 0.85, LEAST_AT_CENTRE = 0.55, LEAST_AT_CORNER = 0.35;
 // cut anew, it would be other edges that are.
 constexpr double NEAR_ANGLE = 0.7;
 
+constexpr std::size_t CORNERS_TOGETHER = 1 << 12;  // triangles whose corners are copied together
+
 SpaceTriangle corners_in_space(const PatchState& state, Triangle k) {
     const auto at = [&](HalfEdge e) { return state.frames.point[state.t.tri[e]]; };
     return {at(3 * k), at(3 * k + 1), at(3 * k + 2)};
@@ -62,14 +64,14 @@ Array<std::uint8_t> without_crease(PatchState& state, const Array<HalfEdgePair>&
 }  // namespace
 
 Array<double> deviations(PatchState& state, std::span<const Triangle> triangles, double chord) {
-    Array<SpaceTriangle> corners;
-    Array<PlaneTriangle> xy;
-    corners.reserve(triangles.size());
-    xy.reserve(triangles.size());
-    for (const Triangle k : triangles) {
-        corners.push_back(corners_in_space(state, k));
-        xy.push_back(corners_in_plane(state, k));
-    }
+    auto corners = Array<SpaceTriangle>::unfilled(triangles.size());
+    auto xy = Array<PlaneTriangle>::unfilled(triangles.size());
+    for_each_block(triangles.size(), CORNERS_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            corners[k] = corners_in_space(state, triangles[k]);
+            xy[k] = corners_in_plane(state, triangles[k]);
+        }
+    });
     const std::span<const SpaceTriangle> in_space{corners.data(), corners.size()};
     const std::span<const PlaneTriangle> in_plane{xy.data(), xy.size()};
     Array<double> found =

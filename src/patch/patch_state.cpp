@@ -262,14 +262,19 @@ int PatchState::swap_at_border(double bad) {
 void PatchState::note(const SwapsMade& made) {
     stars_known_ = made.stars_known;
     swaps += made.count;
+    edge_changes += made.count;
+}
+
+void PatchState::note_removed(int vertices) {
+    stars_known_ = stars_known_ && vertices == 0;
+    collapses += vertices;
+    edge_changes += vertices;
 }
 
 void PatchState::collapse() {
     if (stopped()) return;
     find_stars();
-    const int made = collapse_short_edges(t, frames, stars, marks, SHORTEST, FEW);
-    stars_known_ = stars_known_ && made == 0;
-    collapses += made;
+    note_removed(collapse_short_edges(t, frames, stars, marks, SHORTEST, FEW));
 }
 
 int PatchState::remove_at_border(double bad) {
@@ -277,18 +282,15 @@ int PatchState::remove_at_border(double bad) {
     find_stars();
     const int made = surfmesh::remove_at_border(t, frames, stars, marks, shape, bad,
                                                 filling_limits(asked(), LONGEST_UNSMOOTHED));
-    stars_known_ = stars_known_ && made == 0;
-    collapses += made;
+    note_removed(made);
     return made;
 }
 
 void PatchState::remove_worst(double least) {
     if (stopped() || shape.size() < t.region.size()) return;
     find_stars();
-    const int made = surfmesh::remove_worst(t, frames, stars, marks, shape, least,
-                                            filling_limits(asked(), LONGEST));
-    stars_known_ = stars_known_ && made == 0;
-    collapses += made;
+    note_removed(surfmesh::remove_worst(t, frames, stars, marks, shape, least,
+                                        filling_limits(asked(), LONGEST)));
 }
 
 void PatchState::insert_at_worst(double least) {
@@ -299,6 +301,7 @@ void PatchState::insert_at_worst(double least) {
     const int removed = remove_bad_stars(t, frames, stars, marks, first, least);
     stars_known_ = removed == 0;
     splits -= removed;
+    edge_changes += removed;
 }
 
 void PatchState::split(double longest) {
@@ -349,6 +352,7 @@ int PatchState::set_new(Vertex first) {
     set_frames(added);
     stars_known_ = false;
     splits += static_cast<int>(added.size());
+    edge_changes += static_cast<std::int64_t>(added.size());
     return static_cast<int>(added.size());
 }
 

@@ -70,6 +70,7 @@ class PatchState {
     double kept_drift = 0.0;  // what a vertex may move, in unit lengths, before it is put back
     double still;             // what it has to move by for its neighbours to go on, unit lengths
     int swaps = 0, collapses = 0, splits = 0, passes = 0;
+    std::int64_t edge_changes = 0;  // how many of them there were, also where ``splits`` go back
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
     [[nodiscard]] const Chart& chart() const { return setting_.chart; }
@@ -147,6 +148,7 @@ class PatchState {
 
   private:
     void note(const SwapsMade& made);
+    void note_removed(int vertices);
     void renew_frames(std::span<const Vertex> vertices, double drift);
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink);

@@ -5,7 +5,7 @@
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/findings.hpp"
-#include "values/threads.hpp"
+#include "values/first_touch.hpp"
 
 namespace surfmesh {
 namespace {
@@ -25,7 +25,11 @@ constexpr double FLAT = 1e-9;
 constexpr double CLEARLY_FAR = 1.05;
 
 constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
+constexpr std::size_t MEASURED_TOGETHER = 1 << 12;   // whose factors are found together
 constexpr std::size_t CORNERS_COMPARED = 1 << 10;    // with those before at once
+
+/// So many vertices there may be after all splits.
+std::size_t with_room(const PatchState& state) { return state.t.xy.size() + state.t.xy.size() / 4; }
 
 double estimate(const PatchState& state, Triangle k) {
     const Array<Vertex>& tri = state.t.tri;
@@ -49,7 +53,7 @@ TrackedDeviations::TrackedDeviations(PatchState& state, double chord)
     const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
     suspect_ = (few ? FLAT : part) * chord;
     suspect_once_measured_ = few ? suspect_ : SUSPECT_ONCE_MEASURED * chord;
-    factor_.resize(state.t.region.size(), 0.0F);
+    factor_ = filled_by_threads(state.t.region.size(), 0.0F, 2 * with_room(state));
 }
 
 bool TrackedDeviations::is_suspect(Triangle k) const {
@@ -68,10 +72,12 @@ Array<Triangle> TrackedDeviations::suspects() const {
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
     Array<double> found = deviations(state_, triangles, looked_at_);
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const double guess = estimate(state_, triangles[k]);
-        factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;
-    }
+    for_each_block(triangles.size(), MEASURED_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const double guess = estimate(state_, triangles[k]);
+            factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;
+        }
+    });
     return found;
 }
 
@@ -88,12 +94,18 @@ Array<Triangle> TrackedDeviations::farthest(const Array<Triangle>& triangles, do
 }
 
 void TrackedDeviations::start_round() {
+    if (edges_before_ != state_.edge_changes) note_corners();
+    is_changed_.fill(0);
+}
+
+void TrackedDeviations::note_corners() {
     const Array<Vertex>& now = state_.t.tri;  // into the memory of the round before
+    if (before_.empty()) before_ = unfilled_with_room<Vertex>(now.size(), 6 * with_room(state_));
     before_.resize(now.size());
     for_each_block(now.size(), 3 * TRIANGLES_TOGETHER, [&](std::size_t first, std::size_t last) {
         std::copy(now.begin() + first, now.begin() + last, before_.begin() + first);
     });
-    is_changed_.fill(0);
+    edges_before_ = state_.edge_changes;
 }
 
 void TrackedDeviations::add_moved() {
@@ -101,24 +113,31 @@ void TrackedDeviations::add_moved() {
     for (const Vertex v : state_.moved) is_changed_[v] = 1;
 }
 
+/// The half-edges that start elsewhere than when the round began.
+Array<HalfEdge> TrackedDeviations::new_corners() const {
+    const Array<Vertex>& now = state_.t.tri;
+    if (edges_before_ == state_.edge_changes) return {};
+    return collect_by_blocks<HalfEdge>(
+        now.size(), CORNERS_COMPARED,
+        [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
+            if (std::equal(now.begin() + first, now.begin() + last, before_.begin() + first))
+                return;  // nearly always
+            for (std::size_t e = first; e < last; ++e)
+                if (now.data()[e] != before_.data()[e]) own.push_back(static_cast<HalfEdge>(e));
+        });
+}
+
 Array<Triangle> TrackedDeviations::changed(const Array<Triangle>& others) {
     const Array<Vertex>& now = state_.t.tri;
     is_changed_.resize(state_.t.xy.size(), 0);
     factor_.resize(state_.t.region.size(), 0.0F);
-    const Array<HalfEdge> new_corners = collect_by_blocks<HalfEdge>(
-        now.size(), CORNERS_COMPARED,
-        [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
-            if (last <= before_.size() &&
-                std::equal(now.begin() + first, now.begin() + last, before_.begin() + first))
-                return;  // nearly always
-            for (std::size_t e = first; e < last; ++e)
-                if (e >= before_.size() || now.data()[e] != before_.data()[e])
-                    own.push_back(static_cast<HalfEdge>(e));
-        });
-    for (const HalfEdge e : new_corners) {
+    before_.resize(now.size(), NIL);  // of new triangles all corners are
+    for (const HalfEdge e : new_corners()) {
         is_changed_[now[e]] = 1;
         factor_[e / 3] = 0.0F;
+        before_[e] = now[e];
     }
+    edges_before_ = state_.edge_changes;
     state_.find_stars();
     const Array<Triangle> around = triangles_at(state_.t, &state_.stars, is_changed_);
     const Array<Triangle> found =

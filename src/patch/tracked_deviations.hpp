@@ -41,6 +41,8 @@ class TrackedDeviations {
 
   private:
     [[nodiscard]] bool is_suspect(Triangle k) const;
+    [[nodiscard]] Array<HalfEdge> new_corners() const;
+    void note_corners();
 
     PatchState& state_;
     double chord_;
@@ -48,6 +50,7 @@ class TrackedDeviations {
     double suspect_, suspect_once_measured_;  // estimates from which triangles are measured
     Array<float> factor_;                     // measured over estimated; 0: not measured
     Array<Vertex> before_;                    // corners at the start of the round
+    std::int64_t edges_before_ = -1;          // ``edge_changes`` when they were
     Array<std::uint8_t> is_changed_;          // vertices
 };
 

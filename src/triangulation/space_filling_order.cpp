@@ -70,10 +70,10 @@ Grid grid_over(std::span<const Point2> points, std::span<const Vertex> some) {
 }  // namespace
 
 Array<Vertex> along_hilbert_curve(std::span<const Point2> points, std::span<const Vertex> some) {
-    Array<Vertex> order(some);
+    auto order = Array<Vertex>::unfilled(some.size());
     if (some.empty()) return order;
     const Grid grid = grid_over(points, some);
-    Array<Placed> placed(some.size());
+    auto placed = Array<Placed>::unfilled(some.size());
     for_each_block(some.size(), PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
             placed[k] = {grid.place(points[some[k]]), some[k]};
@@ -86,7 +86,9 @@ Array<Vertex> along_hilbert_curve(std::span<const Point2> points, std::span<cons
                                placed.data() + last, is_before);
         });
     }
-    for (std::size_t k = 0; k < some.size(); ++k) order[k] = placed[k].v;
+    for_each_block(some.size(), PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) order[k] = placed[k].v;
+    });
     return order;
 }
 

@@ -16,7 +16,8 @@ from surfmesh._core.surfaces import plane
 from surfmesh.geometry.differential.chart import Chart
 
 SQUARE = ((0.0, 1.0), (0.0, 1.0))
-SIZE, SIDE = 0.006, 167  # 65 thousand triangles
+SIZE, SIDE = 0.006, 167  # 65 thousand triangles: two parts
+FINE, FINE_SIDE = 0.0034, 294  # 200 thousand: three, of which two are one thread's of two
 
 
 class Stop(Exception):
@@ -32,13 +33,14 @@ def threads(count: int) -> Iterator[None]:
         allow_threads(before)
 
 
-def mesh(**hooks):
+def mesh(size=SIZE, side=SIDE, **hooks):
     x, y = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
     settings = core.PatchSettings(
         plane(SQUARE, np.zeros(3), x, y), Chart.uniform(SQUARE, (1.0, 1.0)).core,
-        constant_background(SIZE, 1.0, 1.0), box=(0, 0, 1, 1), expected=33_000, **hooks,
+        constant_background(size, 1.0, 1.0), box=(0, 0, 1, 1),
+        expected=int(1.2 / size**2), **hooks,
     )  # fmt: skip
-    t, zero = np.arange(SIDE) / SIDE, np.zeros(SIDE)
+    t, zero = np.arange(side) / side, np.zeros(side)
     sides = [(t, zero), (zero + 1, t), (1 - t, zero + 1), (zero, 1 - t)]
     uv = np.concatenate([np.stack(side, axis=1) for side in sides])
     ring = np.stack([np.arange(len(uv)), np.roll(np.arange(len(uv)), -1)], axis=1).astype(np.int32)
@@ -50,16 +52,18 @@ def test_any_number_of_threads_makes_the_same_mesh():
     made = []
     for count in (1, 2, 5):
         with threads(count):
-            made.append(mesh())
+            made.append(mesh(FINE, FINE_SIDE))
     for other in made[1:]:
         assert np.array_equal(made[0].mapped.points, other.mapped.points)
         assert np.array_equal(made[0].mapped.triangles, other.mapped.triangles)
-    assert made[0].end == PatchEnd.DONE and len(made[0].mapped.triangles) > 60_000
-    assert check_domain(made[0].domain.t, euler=1) is None
+    assert made[0].end == PatchEnd.DONE and len(made[0].mapped.triangles) > 190_000
 
 
-def test_neighbours_are_near_in_memory():
-    triangles = mesh().mapped.triangles
+def test_a_patch_in_parts_is_a_domain_whose_neighbours_are_near_in_memory():
+    made = mesh()
+    assert check_domain(made.domain.t, euler=1) is None
+    triangles = made.mapped.triangles
+    assert len(triangles) > 60_000
     apart = triangles.max(axis=1) - triangles.min(axis=1)
     assert np.median(apart) < 0.01 * triangles.max()
 
