@@ -16,6 +16,7 @@
 namespace surfmesh::binding {
 
 void bind_boundaries(nb::module_& m);
+void bind_coedges(nb::module_& m);
 void bind_joining(nb::module_& m);
 void bind_graded(nb::module_& m);
 
@@ -274,6 +275,7 @@ void bind_work(nb::module_& m) {
 void bind_faces(nb::module_& m) {
     m.doc() = "A face of a CAD model: its boundary in, its triangles out.";
     bind_boundaries(m);
+    bind_coedges(m);
     bind_coarse(m);
     bind_ends(m);
     bind_manner(m);

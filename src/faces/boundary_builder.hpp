@@ -1,8 +1,6 @@
 // The boundaries of faces put together coedge by coedge, as their loops are walked.
 #pragma once
 
-#include <vector>
-
 #include "faces/face_boundary.hpp"
 
 namespace surfmesh {
@@ -31,17 +29,5 @@ class BoundaryBuilder {
   private:
     FaceBoundary made_;
 };
-
-/// The coedges of many faces, loop after loop: nodes of all in one row.
-struct CoedgeRows {
-    EdgeNodeRows nodes;                   // in the direction of the edges
-    std::span<const std::int64_t> first;  // of the coedges and behind the last: their rows
-    std::span<const std::uint8_t> is_reversed, is_degenerate;
-    std::span<const double> tolerance;
-    std::span<const std::int32_t> coedges;  // of the loops: how many
-    std::span<const std::int32_t> loops;    // of the faces: how many
-};
-
-[[nodiscard]] std::vector<FaceBoundary> boundaries_of(const CoedgeRows& rows);
 
 }  // namespace surfmesh

@@ -170,7 +170,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)
-        foreseen = is_foreseen(sizings, counts, before.alike.outlines.fewest, before.bends)
+        foreseen = is_foreseen(sizings, counts, before.alike.fewest, before.bends)
         small = counts.sum() <= (FEW if foreseen else whole)
     if small:
         samples = before.samples if stretched else None  # else there are too few

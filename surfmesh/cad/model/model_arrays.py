@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from surfmesh._core.edges import CurvePieces
+from surfmesh._core.faces import CoedgeTable
 from surfmesh.cad.model.cad_model import CadCoedge, CadModel
 from surfmesh.cad.model.collapsed_edges import collapsed_edges, vertex_numbers
 
@@ -144,6 +145,15 @@ class ModelArrays:
         """Of the coedges, in the (u, v) of their faces; parameters run as those of the edges."""
         curves = [coedge.pcurve.core for coedge in self.coedges]
         return _pieces(curves, [(coedge.p0, coedge.p1) for coedge in self.coedges])
+
+    @cached_property
+    def coedge_table(self) -> CoedgeTable:
+        """What boundaries of faces are made from, when the edges are cut."""
+        return CoedgeTable(
+            self.pcurves, self.coedge_edge, self.coedge_reversed.view(np.uint8),
+            self.first_of_loop, self.first_loop_of_face, self.tolerance,
+            np.ascontiguousarray(self.mesh_ends[:, 0]), self.corners,
+        )  # fmt: skip
 
     @cached_property
     def coedge_reversed(self) -> np.ndarray:
