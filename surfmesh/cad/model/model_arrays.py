@@ -124,6 +124,11 @@ class ModelArrays:
         return self.vertex[self.ends]
 
     @cached_property
+    def is_closed(self) -> np.ndarray:
+        """(e,) bool: the edge starts and ends at one vertex of a mesh."""
+        return self.mesh_ends[:, 0] == self.mesh_ends[:, 1]
+
+    @cached_property
     def has_twin(self) -> np.ndarray:
         """(e,) bool: another edge joins the same two vertices of a mesh."""
         there = ~self.collapsed
@@ -164,15 +169,13 @@ class ModelArrays:
 def offsets(counts: np.ndarray) -> np.ndarray:
     """Where rows of so many (n,) begin, and how many there are in all: (n + 1,) int64."""
     found = np.zeros(len(counts) + 1, np.int64)
-    np.cumsum(counts, out=found[1:])
+    counts.cumsum(out=found[1:])
     return found
 
 
-def rows_of(first: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """The rows first[k] to first[k + 1] of each k in ``which``, one after the other: (n,) int64."""
-    count = first[which + 1] - first[which]
-    own = offsets(count)
-    return np.repeat(first[which] - own[:-1], count) + np.arange(own[-1])
+def counts_of(first: np.ndarray) -> np.ndarray:
+    """How many rows there are from each offset to the next: (n,) of (n + 1,)."""
+    return first[1:] - first[:-1]
 
 
 def _pieces(curves: list, limits: list[tuple[float, float]]) -> CurvePieces:

@@ -5,9 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
-from surfmesh._core.edges import MateRuns
+from surfmesh._core.edges import MateRuns, rows_of
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import offsets, rows_of
+from surfmesh.cad.model.model_arrays import offsets
 
 
 @dataclass(frozen=True)

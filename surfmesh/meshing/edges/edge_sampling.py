@@ -13,7 +13,7 @@ import numpy as np
 
 from surfmesh._core.edges import gap_sizes
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import counts_of, model_arrays, offsets
 from surfmesh.meshing.edges.edge_mates import NO_RUNS, mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -57,7 +57,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
     first = offsets(np.array([len(own) for own in fractions], np.int64))
     courses = Courses.of(arrays, edges, first, np.concatenate([np.empty(0), *fractions]))
     count, total_curvature = np.zeros((2, len(model.edges)))
-    count[edges], total_curvature[edges] = np.diff(first), courses.total_curvature
+    count[edges], total_curvature[edges] = counts_of(first), courses.total_curvature
     first = offsets(count.astype(np.int64))
     samples = EdgeSamples(
         first,
@@ -177,11 +177,12 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         return
     ends = model_arrays(model).mesh_ends
     by_sizes: dict[tuple[float | None, float, float], list[np.ndarray]] = {}
-    wide = samples.is_wide  # across others is nothing to be meshed, nor beside the end of one side
     for own, numbers in sizing.sets(len(model.faces)):
-        some = numbers[wide[numbers]]
-        for narrow in np.unique(samples.narrow_width[some]).tolist():
-            same = some[samples.narrow_width[some] == narrow]
+        if samples.narrow:  # across them is nothing to be meshed, nor beside the end of one side
+            numbers = numbers[samples.is_wide[numbers]]
+        width = samples.narrow_width[numbers]
+        for narrow in sorted(set(width.tolist())):
+            same = numbers[width == narrow]
             by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(same)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0

@@ -20,7 +20,6 @@ from surfmesh._core.faces import alike_faces, fewest_triangles
 from surfmesh.meshing.estimate.estimation import combined
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.metric_area import TRIANGLES
-from surfmesh.sizing.options.sizing import Sizing
 
 CLASSES = 32
 """Of each population all are looked at closely up to so many, so many of more than that."""

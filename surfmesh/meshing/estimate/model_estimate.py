@@ -8,11 +8,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from surfmesh._core.edges import curvatures_at
+from surfmesh._core.edges import curvatures_at, rows_of
 from surfmesh._core.faces import metric_areas_inward
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import cell_centres, inner_samples
-from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges

@@ -126,7 +126,8 @@ class SizeRules:
     def from_curvature(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """Size (n,) by the curvature alone, within the bounds."""
         sizes = [size for _, size in self.at_curvature(k1, k2)]
-        return np.clip(np.minimum.reduce(sizes), *self.clamp)
+        least = sizes[0] if len(sizes) == 1 else np.minimum.reduce(sizes)
+        return np.minimum(np.maximum(least, self.clamp[0]), self.clamp[1])
 
     def from_place(self, points: np.ndarray) -> np.ndarray:
         """Size (n,) by the place alone, not within the bounds; infinite for none."""
