@@ -224,10 +224,16 @@ class InwardFace:
     A face with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges.
     """
 
-    def __init__(self, surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: FaceManner, look_for_tubes: bool = False) -> None:
-        """
-        Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
-        """
+    @property
+    def largest(self) -> float: ...
+
+    @property
+    def on_lattice(self) -> bool: ...
+
+def inward_face(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, radius: float | None, asked: surfmesh._core.sizing.AskedRules, slope: float, manner: FaceManner, look_for_tubes: bool = False) -> InwardFace | None:
+    """
+    A plane (radius None) or a cylinder whose sizes grow by ``slope`` per length up to what the rules allow; None where a coedge is degenerate, or the box of the boundary has no area. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
+    """
 
 class GradedFace:
     """A face whose sizes follow from its curvature and its edges."""
