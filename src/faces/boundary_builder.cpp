@@ -2,6 +2,16 @@
 
 namespace surfmesh {
 
+void BoundaryBuilder::reserve(std::size_t nodes, std::size_t uses) {
+    made_.uv.reserve(nodes);
+    made_.numbers.reserve(nodes);
+    made_.points.reserve(nodes);
+    made_.sizes.reserve(nodes);
+    made_.piece_end.reserve(uses);
+    made_.degenerate.reserve(uses);
+    made_.tolerance.reserve(uses);
+}
+
 void BoundaryBuilder::add(const EdgeNodeRows& nodes, const EdgeUse& use) {
     const std::size_t count = nodes.uv.size();
     for (std::size_t k = 0; k < count; ++k) {

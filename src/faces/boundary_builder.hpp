@@ -1,6 +1,8 @@
 // The boundaries of faces put together coedge by coedge, as their loops are walked.
 #pragma once
 
+#include <utility>
+
 #include "faces/face_boundary.hpp"
 
 namespace surfmesh {
@@ -22,9 +24,12 @@ struct EdgeUse {
 
 class BoundaryBuilder {
   public:
+    /// Room for so many nodes and uses of edges.
+    void reserve(std::size_t nodes, std::size_t uses);
     void add(const EdgeNodeRows& nodes, const EdgeUse& use);
     void end_loop() { made_.loop_end.push_back(made_.pieces()); }
-    [[nodiscard]] const FaceBoundary& boundary() const { return made_; }
+    [[nodiscard]] FaceBoundary boundary() const& { return made_; }
+    [[nodiscard]] FaceBoundary boundary() && { return std::move(made_); }
 
   private:
     FaceBoundary made_;

@@ -1,6 +1,7 @@
 #include "faces/coedge_table.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace surfmesh {
 namespace {
@@ -52,8 +53,7 @@ CoedgeNodeRows nodes_of(const CoedgeTable& table, std::span<const std::int64_t> 
     CoedgeNodeRows rows;
     rows.first.push_back(0);
     for (const std::int64_t face : faces) {
-        const std::int64_t from = table.first_of_loop[table.first_loop_of_face[face]];
-        const std::int64_t to = table.first_of_loop[table.first_loop_of_face[face + 1]];
+        const std::int64_t from = table.first_coedge(face), to = table.first_coedge(face + 1);
         for (std::int64_t coedge = from; coedge < to; ++coedge) {
             const std::int64_t edge = table.edge[coedge];
             if (is_point(nodes, edge))
@@ -82,6 +82,26 @@ Array<Point2> places_of(const CoedgeTable& table, const CoedgeNodeRows& rows) {
     return found;
 }
 
+/// Of one face whose coedges are those of the rows from ``k`` on, which moves on behind them.
+FaceBoundary boundary_of(const CoedgeTable& table, std::int64_t face, const CutEdgeRows& nodes,
+                         const CoedgeNodeRows& rows, std::span<const Point2> uv, std::size_t& k) {
+    BoundaryBuilder builder;
+    const std::size_t uses = table.coedges_of(face);
+    builder.reserve(static_cast<std::size_t>(rows.first.data()[k + uses] - rows.first.data()[k]),
+                    uses);
+    for (auto loop = table.first_loop_of_face[face]; loop < table.first_loop_of_face[face + 1];
+         ++loop) {
+        const std::int64_t count = table.first_of_loop[loop + 1] - table.first_of_loop[loop];
+        for (std::int64_t c = 0; c < count; ++c, ++k) {
+            const std::int64_t coedge = rows.coedge.data()[k], edge = table.edge[coedge];
+            builder.add(rows.of(k, uv), {table.is_reversed[coedge] != 0, is_point(nodes, edge),
+                                         table.tolerance[edge]});
+        }
+        builder.end_loop();
+    }
+    return std::move(builder).boundary();
+}
+
 }  // namespace
 
 std::vector<FaceBoundary> boundaries_of(const CoedgeTable& table,
@@ -92,20 +112,8 @@ std::vector<FaceBoundary> boundaries_of(const CoedgeTable& table,
     std::vector<FaceBoundary> found;
     found.reserve(faces.size());
     std::size_t k = 0;
-    for (const std::int64_t face : faces) {
-        BoundaryBuilder builder;
-        for (auto loop = table.first_loop_of_face[face]; loop < table.first_loop_of_face[face + 1];
-             ++loop) {
-            const std::int64_t count = table.first_of_loop[loop + 1] - table.first_of_loop[loop];
-            for (std::int64_t c = 0; c < count; ++c, ++k) {
-                const std::int64_t coedge = rows.coedge.data()[k], edge = table.edge[coedge];
-                builder.add(rows.of(k, all_of(uv)), {table.is_reversed[coedge] != 0,
-                                                     is_point(nodes, edge), table.tolerance[edge]});
-            }
-            builder.end_loop();
-        }
-        found.push_back(builder.boundary());
-    }
+    for (const std::int64_t face : faces)
+        found.push_back(boundary_of(table, face, nodes, rows, all_of(uv), k));
     return found;
 }
 

@@ -30,6 +30,12 @@ struct CoedgeTable {
     Array<std::int64_t> start;                              // of the edges: vertex of the mesh
     Array<Point3> corners;                                  // of these vertices
 
+    [[nodiscard]] std::int64_t first_coedge(std::int64_t face) const {
+        return first_of_loop[first_loop_of_face[face]];
+    }
+    [[nodiscard]] std::size_t coedges_of(std::int64_t face) const {
+        return static_cast<std::size_t>(first_coedge(face + 1) - first_coedge(face));
+    }
     [[nodiscard]] std::size_t faces() const { return first_loop_of_face.size() - 1; }
     [[nodiscard]] std::size_t edges() const { return start.size(); }
 };

@@ -160,8 +160,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     balanced = asked.base.is_balanced
     if balanced:  # what is made first, with its vertices on the surface
         wide = widened_model(asked)
-        sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
-    before = UnmeshedModel(model, sizing, few=True)
+        asked = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
+    before = UnmeshedModel(model, asked, few=True)
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
@@ -175,7 +175,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     if small:
         samples = before.samples if stretched else None  # else there are too few
         made = counts_within_budget(lambda budget: mesh_model(
-            model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS, samples=samples
+            model, asked, progress=budget, strict=False, rounds=TRIAL_ROUNDS, samples=samples
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)

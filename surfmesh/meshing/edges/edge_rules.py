@@ -246,8 +246,10 @@ class EdgeRules:
             yield Demand(place_rule, None, sizes)
 
     def _by_own_curvature(self, rules: SizeRules, courses: Courses) -> Iterator[Demand]:
+        if not rules.follows_curvature:
+            return
         bent = np.flatnonzero(~self.arrays.straight[courses.edges])
-        if not len(bent) or not rules.by_curvature:
+        if not len(bent):
             return
         own, rows = courses.chosen(bent)
         tolerance = np.repeat(self.arrays.tolerance[own.edges], counts_of(own.first))

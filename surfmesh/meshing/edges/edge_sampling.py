@@ -7,8 +7,6 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from surfmesh._core.edges import gap_sizes
@@ -78,7 +76,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         np.full(int(first[-1]), np.inf),
     )
     _find_narrow(samples, rules)
-    samples = replace(samples, mates=mate_runs(model, samples))
+    samples.mates = mate_runs(model, samples)
     _apply_vertices(samples, rules)
     _apply_gaps(model, samples, sizing)
     return samples
@@ -189,7 +187,9 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
     narrowest = NARROWEST * model.diagonal
     asked = samples.target_size
     for (count, least, narrow), faces in by_sizes.items():
-        first, edges = samples.edges_of_faces(np.concatenate(faces))
+        first, edges = samples.edges_of_wide_faces
+        if len(by_sizes) > 1:
+            first, edges = samples.edges_of_faces(np.concatenate(faces))
         if not first[-1]:
             continue
         fraction = 1.0 if count is None else size_across(1.0, count, slope)
