@@ -28,6 +28,7 @@ FEW = 0.01
 """Share of the triangles that are told from nodes and areas alone, at most: faces of classes that
 could not hold more whatever their sizes inside."""
 
+
 def fewest_of(jobs: Sequence[FaceJob]) -> np.ndarray:
     """Triangles (f,) within the loops of faces when no node lies inside, by Euler's formula."""
     return np.asarray(fewest_triangles([job.boundary for job in jobs]))
