@@ -192,9 +192,9 @@ def _follows_curvature(sizing: Sizing) -> bool:
 def _least(before: UnmeshedModel, balanced: bool) -> float | None:
     """The fewest triangles that the chords of the faces allow; None without any."""
     asked = [face.sizing.chord for face in before.faces]
-    chords = np.array([np.inf if chord is None else chord for chord in asked])
-    if before.wanted.base.is_curved or not np.isfinite(chords).any():
+    if before.wanted.base.is_curved or all(chord is None for chord in asked):
         return None
+    chords = np.array([np.inf if chord is None else chord for chord in asked])
     chords /= WIDER if balanced else 1.0
     return least_of_model(before.model, before.nodes, before.jobs, chords, balanced)
 

@@ -124,6 +124,11 @@ class ModelArrays:
         return self.vertex[self.ends]
 
     @cached_property
+    def bent_edges(self) -> np.ndarray:
+        """(k,) edges that are neither straight nor collapsed, rising."""
+        return np.flatnonzero(~self.straight & ~self.collapsed)
+
+    @cached_property
     def is_closed(self) -> np.ndarray:
         """(e,) bool: the edge starts and ends at one vertex of a mesh."""
         return self.mesh_ends[:, 0] == self.mesh_ends[:, 1]

@@ -185,7 +185,7 @@ class EdgeRules:
         it or it is straight; and how long a segment is that is not cut for it."""
         count = len(self.model.edges)
         chord, shortest = np.full(count, np.inf), np.zeros(count)
-        for own in self._hearings(np.flatnonzero(~self.arrays.straight & ~self.arrays.collapsed)):
+        for own in self._hearings(self.arrays.bent_edges):
             edges, allowed = own.edges, own.sizing.straight_chord
             if allowed is not None:
                 chord[edges] = np.minimum(chord[edges], allowed)

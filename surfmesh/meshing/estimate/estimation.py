@@ -134,8 +134,8 @@ def combined(inside: np.ndarray, fewest: np.ndarray) -> np.ndarray:
     the loops allow."""
     least = np.maximum(fewest, 1.0)
     larger = np.minimum(np.maximum(inside, least), COUNTABLE)
-    parts = np.minimum(inside / larger, 1.0), np.minimum(least / larger, 1.0)
-    found = larger * (parts[0] ** SHARP + parts[1] ** SHARP) ** (1.0 / SHARP)
+    ratio = np.minimum(inside, least) / larger
+    found = larger * (1.0 + ratio**SHARP) ** (1.0 / SHARP)
     return np.where(larger < COUNTABLE, found, COUNTABLE)
 
 

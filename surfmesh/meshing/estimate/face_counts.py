@@ -88,9 +88,9 @@ def counts_of_faces(
 
 def _are_few(most: np.ndarray, total: float) -> np.ndarray:
     """Which classes of at most so many triangles (k,) hold few of all of them together?"""
-    order = np.argsort(most, kind="stable")
+    order = most.argsort(kind="stable")
     found = np.empty(len(most), bool)
-    found[order] = np.cumsum(most[order]) <= FEW * total
+    found[order] = most[order].cumsum() <= FEW * total
     return found
 
 
@@ -99,7 +99,7 @@ def _sample(of: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     classes."""
     if len(of) <= CLASSES:
         return of, np.ones(len(of))
-    sums = np.cumsum(weight[of])
+    sums = weight[of].cumsum()
     at = (np.arange(CLASSES) + 0.5) / CLASSES * sums[-1]
     return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
 

@@ -232,8 +232,11 @@ def is_foreseen(
     """
     if not all(map(is_one_round, {id(sizing): sizing for sizing in sizings}.values())):
         return False
-    bent = np.where(bends.turn > LARGEST_TURN, counts * (bends.turn / LARGEST_TURN) ** 2, 0.0)
-    unknown = np.maximum(bent, thin_counts(counts, fewest))
+    unknown = thin_counts(counts, fewest)
+    folded = bends.turn > LARGEST_TURN
+    if folded.any():
+        bent = np.where(folded, counts * (bends.turn / LARGEST_TURN) ** 2, 0.0)
+        unknown = np.maximum(unknown, bent)
     return float(unknown.sum()) <= FEW_UNKNOWN * float(counts.sum())
 
 
