@@ -8,7 +8,7 @@ import pytest
 from surfmesh._core import faces as core
 from surfmesh._core.faces import BoundaryBuilder, FaceBoundary, FaceEnd, FacePolygons
 from surfmesh._core.surfaces import cylinder, plane
-from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
+from surfmesh.geometry.cad_surfaces.elementary import Plane
 from surfmesh.sizing.field.boundary_field import boundary_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_rules import asked_rules
