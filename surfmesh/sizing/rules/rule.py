@@ -6,7 +6,7 @@ in a file of its own and list it in ``size_rules.RULES``.
 """
 
 from collections.abc import Iterator
-from typing import ClassVar, NamedTuple, Protocol, Self
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class Rule:
         return self
 
     @classmethod
-    def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator[Self]:
+    def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["Rule"]:
         """The rules of this kind that ``sizing`` asks for on a surface of this diagonal."""
         raise NotImplementedError
 

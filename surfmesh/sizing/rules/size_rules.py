@@ -20,11 +20,9 @@ from surfmesh.sizing.rules.rule import CurvatureRule, PlaceRule, Rule
 from surfmesh.sizing.rules.size_rule import SizeRule
 from surfmesh.sizing.rules.source_rule import SourceRule
 
-BY_CURVATURE: tuple[type[CurvatureRule], ...] = (
-    ChordRule, QuadraticChordRule, AngleRule, DefaultAngleRule,
+RULES: tuple[type[Rule], ...] = (
+    ChordRule, QuadraticChordRule, AngleRule, DefaultAngleRule, SizeRule, SourceRule,
 )  # fmt: skip
-BY_PLACE: tuple[type[PlaceRule], ...] = SizeRule, SourceRule
-RULES: tuple[type[Rule], ...] = *BY_CURVATURE, *BY_PLACE
 """Every kind of rule, in the order in which they are heard."""
 
 NO_EXTENT = 0.0
@@ -63,11 +61,12 @@ class SizeRules:
     def of(cls, sizing: Sizing, diagonal: float) -> "SizeRules":
         """``diagonal``: of the surface's bounding box, model units."""
         sizing = with_default_chord(sizing, diagonal)
-        by_curvature = [rule for kind in BY_CURVATURE for rule in kind.asked_for(sizing, diagonal)]
-        by_place = [rule for kind in BY_PLACE for rule in kind.asked_for(sizing, diagonal)]
+        rules = [rule for kind in RULES for rule in kind.asked_for(sizing, diagonal)]
         allowed = core_sizing.size_bounds(core_bounds(sizing), diagonal)
+        by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
+        by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
         clamp = allowed.smallest, allowed.largest
-        return cls(sizing, tuple(by_curvature), tuple(by_place), allowed, clamp)
+        return cls(sizing, by_curvature, by_place, allowed, clamp)
 
     @property
     def bounds(self) -> tuple[Bound, ...]:
