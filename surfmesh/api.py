@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import return_free_memory
+from surfmesh.cad.model.is_cad_model import is_cad_model
 from surfmesh.errors import FileFormatError, SizingError, SurfaceError, printable, shown
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
@@ -125,7 +126,7 @@ def _mesh_once(
     from surfmesh.meshing.processors import allowed_threads, processors
 
     threads = processors() if jobs is None else jobs
-    if not isinstance(model, Surface):
+    if is_cad_model(model):
         from surfmesh.meshing.faces.face_workers import FaceWorkers
         from surfmesh.meshing.model_mesh import mesh_model
 
@@ -160,7 +161,7 @@ def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:
 
 def _diagonal(model: Surface | CadModel) -> float:
     """Of the bounding box, of a surface by a grid of points."""
-    if not isinstance(model, Surface):
+    if is_cad_model(model):
         return model.diagonal
     from surfmesh.geometry.boxes import diagonal
     from surfmesh.geometry.parameter_grid import parameter_grid
@@ -230,7 +231,7 @@ def estimate(
     """
     model = model_or_surface(surface)
     sizing = _with_sizes(model, sizes_by_name(sizing, sizes))
-    if not isinstance(model, Surface):
+    if is_cad_model(model):
         from surfmesh.meshing.model_mesh import estimate_model
 
         return estimate_model(model, sizing)
@@ -255,7 +256,7 @@ def explain(
     """
     model = model_or_surface(surface)
     sizing = _with_sizes(model, sizing)
-    if not isinstance(model, Surface):
+    if is_cad_model(model):
         from surfmesh.meshing.model_mesh import explain_size
 
         return explain_size(model, sizing, _place(point))

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from surfmesh.cad.healing.joining import Joining
+from surfmesh.cad.model.is_cad_model import is_cad_model
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.errors import CadError, FileFormatError, SurfaceError, did_you_mean, shown
 from surfmesh.geometry.files.surface_file import OF_SURFACES, gallery, load_surface_file
@@ -114,9 +115,7 @@ def model_or_surface(thing: Any) -> Surface | CadModel:
     """What is to be meshed; of a path or a name what ``load`` gives, of CadQuery the model."""
     if isinstance(thing, (str, Path)):
         return load(thing)
-    # a class that nobody has imported has no instances
-    home = sys.modules.get("surfmesh.cad.model.cad_model")
-    if home is not None and isinstance(thing, home.CadModel):
+    if is_cad_model(thing):
         return thing
     if isinstance(thing, Surface):  # by all that a surface can do: it takes longer
         return thing

@@ -19,6 +19,7 @@
 
 namespace surfmesh::binding {
 
+void bind_rows_of_edges(nb::module_& m);
 void bind_sides(nb::module_& m);
 
 namespace {
@@ -244,6 +245,7 @@ void bind_edges(nb::module_& m) {
     bind_courses(m);
     bind_gradation(m);
     bind_cutting(m);
+    bind_rows_of_edges(m);
     bind_sides(m);
 }
 

@@ -6,16 +6,19 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cmath>
 
 #include "binding/arrays.hpp"
 #include "binding/calls_back.hpp"
 #include "faces/face_queue.hpp"
+#include "faces/inward_sizes.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
 void bind_boundaries(nb::module_& m);
+void bind_coedges(nb::module_& m);
 void bind_joining(nb::module_& m);
 void bind_graded(nb::module_& m);
 
@@ -123,36 +126,41 @@ void bind_manner(nb::module_& m) {
             "edges, and the chord is used evenly.");
 }
 
-InwardFace inward_face(std::shared_ptr<Surface> surface, std::shared_ptr<FaceBoundary> boundary,
-                       const std::array<double, 2>& speeds, double largest, double slope,
-                       const FaceManner& manner, bool look_for_tubes) {
-    if (boundary->has_degenerate()) throw nb::value_error("a degenerate coedge is not cut yet");
-    for (const double x : {speeds[0], speeds[1], largest, slope})
-        if (!(x > 0.0) || !std::isfinite(x))
-            throw nb::value_error("speeds, largest and slope are to be positive");
-    return {std::move(surface),
-            std::move(boundary),
-            {{speeds[0], speeds[1]}, largest, slope},
-            manner,
-            look_for_tubes};
+std::optional<InwardFace> inward_face(std::shared_ptr<Surface> surface,
+                                      std::shared_ptr<FaceBoundary> boundary,
+                                      std::optional<double> radius, const AskedRules& asked,
+                                      double slope, FaceManner manner, bool look_for_tubes) {
+    if (!(radius.value_or(1.0) > 0.0 && slope > 0.0))
+        throw nb::value_error("radius and slope are to be positive");
+    const PlaneBox box = boundary->box();
+    const bool is_wide = box.low.x < box.high.x && box.low.y < box.high.y;  // false for nan
+    if (boundary->has_degenerate() || !is_wide) return {};
+    const EvenSurface even{*surface, radius, {box.low, box.high}};
+    const InwardSizes sizes = inward_sizes(even, asked);
+    if (!(sizes.largest > 0.0) || !std::isfinite(sizes.largest)) {
+        if (auto failure = surface->take_failure()) std::rethrow_exception(failure);
+        throw nb::value_error("no largest size is asked for");
+    }
+    manner.on_lattice = sizes.on_lattice;
+    return InwardFace{std::move(surface),
+                      std::move(boundary),
+                      {even.speeds(), sizes.largest, slope},
+                      manner,
+                      look_for_tubes};
 }
 
 void bind_inward(nb::module_& m) {
     nb::class_<InwardFace>(m, "InwardFace",
                            "A face with constant speeds |r_u|, |r_v|, whose sizes grow inward "
                            "from those of its edges.")
-        .def(
-            "__init__",
-            [](InwardFace* made, std::shared_ptr<Surface> surface,
-               std::shared_ptr<FaceBoundary> boundary, const std::array<double, 2>& speeds,
-               double largest, double slope, const FaceManner& manner, bool look_for_tubes) {
-                new (made) InwardFace(inward_face(std::move(surface), std::move(boundary), speeds,
-                                                  largest, slope, manner, look_for_tubes));
-            },
-            nb::arg("surface"), nb::arg("boundary"), nb::arg("speeds"), nb::arg("largest"),
-            nb::arg("slope"), nb::arg("manner"), nb::arg("look_for_tubes") = false,
-            "Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may "
-            "have thin tubes is not meshed, see FaceEnd.");
+        .def_prop_ro("largest", [](const InwardFace& face) { return face.growth.largest; })
+        .def_prop_ro("on_lattice", [](const InwardFace& face) { return face.manner.on_lattice; });
+    m.def("inward_face", &inward_face, nb::arg("surface"), nb::arg("boundary"),
+          nb::arg("radius").none(), nb::arg("asked"), nb::arg("slope"), nb::arg("manner"),
+          nb::arg("look_for_tubes") = false,
+          "A plane (radius None) or a cylinder whose sizes grow by ``slope`` per length up to what "
+          "the rules allow; None where a coedge is degenerate, or the box of the boundary has no "
+          "area. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.");
 }
 
 /// What a call of the queue finishes; what a signal or a surface raises ends all work.
@@ -274,6 +282,7 @@ void bind_work(nb::module_& m) {
 void bind_faces(nb::module_& m) {
     m.doc() = "A face of a CAD model: its boundary in, its triangles out.";
     bind_boundaries(m);
+    bind_coedges(m);
     bind_coarse(m);
     bind_ends(m);
     bind_manner(m);

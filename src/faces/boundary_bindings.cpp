@@ -7,16 +7,14 @@
 
 #include "binding/arrays.hpp"
 #include "binding/released.hpp"
+#include "faces/alike_faces.hpp"
 #include "faces/boundary_builder.hpp"
-#include "faces/loop_figures.hpp"
 #include "faces/shared_sides.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
-template <>
-struct Row<LoopFigures> : RowOf<double, 4> {};
 namespace {
 
 using Ids = Vector<std::int64_t>;
@@ -127,49 +125,6 @@ EdgeNodeRows rows_of(const Points2& uv, const Ids& numbers, const Points3& point
             rows<double>(sizes)};
 }
 
-/// Numbers that are not negative and add up to ``total``.
-void require_sum(const Numbers& counts, std::size_t total, const char* what) {
-    std::size_t sum = 0;
-    for (const std::int32_t count : rows<std::int32_t>(counts)) {
-        if (count < 0) throw nb::value_error("a count is negative");
-        sum += static_cast<std::size_t>(count);
-    }
-    if (sum != total) throw nb::value_error(what);
-}
-
-/// Two nodes to a coedge at least.
-void require_first(const Ids& first, std::size_t coedges, std::size_t nodes) {
-    require_rows(first.shape(0), coedges + 1, "first");
-    for (std::size_t k = 0; k < coedges; ++k)
-        if (first(k + 1) - first(k) < 2) throw nb::value_error("an edge has two nodes at least");
-    if (first(0) != 0 || first(coedges) != static_cast<std::int64_t>(nodes))
-        throw nb::value_error("first is not that of the nodes");
-}
-
-std::vector<FaceBoundary> boundaries(const Points2& uv, const Ids& numbers, const Points3& points,
-                                     const Sizes& sizes, const Ids& first, const Bytes& is_reversed,
-                                     const Bytes& is_degenerate, const Sizes& tolerance,
-                                     const Numbers& coedges, const Numbers& loops) {
-    const std::size_t count = is_reversed.shape(0);
-    const EdgeNodeRows nodes = rows_of(uv, numbers, points, sizes);
-    require_first(first, count, uv.shape(0));
-    require_rows(is_degenerate.shape(0), count, "is_degenerate");
-    require_rows(tolerance.shape(0), count, "tolerance");
-    require_sum(coedges, count, "coedges do not add up to all");
-    require_sum(loops, coedges.shape(0), "loops do not add up to all");
-    for (const std::int32_t coedge : rows<std::int32_t>(coedges))
-        if (coedge < 1) throw nb::value_error("a loop has no coedge");
-    const CoedgeRows all{nodes,
-                         rows<std::int64_t>(first),
-                         rows<std::uint8_t>(is_reversed),
-                         rows<std::uint8_t>(is_degenerate),
-                         rows<double>(tolerance),
-                         rows<std::int32_t>(coedges),
-                         rows<std::int32_t>(loops)};
-    const nb::gil_scoped_release released;
-    return boundaries_of(all);
-}
-
 void bind_builder(nb::module_& m) {
     nb::class_<BoundaryBuilder>(m, "BoundaryBuilder",
                                 "A boundary put together coedge by coedge, as loops are walked.")
@@ -190,31 +145,41 @@ void bind_builder(nb::module_& m) {
             if (made.check() != BoundaryFault::none) throw nb::value_error("a loop is not ended");
             return made;
         });
-    m.def("face_boundaries", &boundaries, nb::arg("uv"), nb::arg("numbers"), nb::arg("points"),
-          nb::arg("sizes"), nb::arg("first"), nb::arg("is_reversed"), nb::arg("is_degenerate"),
-          nb::arg("tolerance"), nb::arg("coedges"), nb::arg("loops"),
-          "The boundaries of many faces.\n\nuv (n, 2), numbers, points (n, 3), sizes: of the nodes "
-          "of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of "
-          "the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) "
-          "int32: of each loop; loops (f,) int32: of each face.");
+}
+
+void require_boundaries(const std::vector<const FaceBoundary*>& boundaries) {
+    for (const FaceBoundary* boundary : boundaries)
+        if (boundary == nullptr) throw nb::type_error("None is no boundary");
 }
 
 void bind_figures(nb::module_& m) {
     m.def(
-        "loop_figures",
+        "fewest_triangles",
         [](const std::vector<const FaceBoundary*>& boundaries) {
-            Array<LoopFigures> figures;
-            Array<std::int64_t> first(1, 0);
-            for (const FaceBoundary* boundary : boundaries) {
-                if (boundary == nullptr) throw nb::type_error("None is no boundary");
-                for (const LoopFigures& own : loop_figures(*boundary)) figures.push_back(own);
-                first.push_back(static_cast<std::int64_t>(figures.size()));
-            }
-            return std::pair(view(figures), view(first));
+            require_boundaries(boundaries);
+            Array<double> found;
+            for (const FaceBoundary* boundary : boundaries)
+                found.push_back(fewest_triangles(*boundary));
+            return view(found);
         },
-        nb::arg("boundaries"),
-        "Of the loops of many boundaries: segments, length of the polygon, sum of the finite sizes "
-        "and their number (l, 4); and where those of each boundary begin.");
+        nb::arg("boundaries"), "Within each of them (f,) when no node lies inside.");
+    m.def(
+        "alike_faces",
+        [](const std::vector<const FaceBoundary*>& boundaries, const Sizes& areas,
+           const Ids& sorts) {
+            require_boundaries(boundaries);
+            require_rows(areas.shape(0), boundaries.size(), "areas");
+            require_rows(sorts.shape(0), boundaries.size(), "sorts");
+            const AlikeFaces found =
+                alike_faces(boundaries, rows<double>(areas), rows<std::int64_t>(sorts));
+            return std::tuple(view(found.fewest), view(found.size), view(found.first_of),
+                              view(found.class_of));
+        },
+        nb::arg("boundaries"), nb::arg("areas"), nb::arg("sorts"),
+        "Faces whose loops have as many segments, as long, with sizes as large, and areas (f,) as "
+        "large, all to six digits, if their sorts (f,) int64 are the same.\n\nThe fewest triangles "
+        "(f,), the mean size at the nodes (f,), infinite where there are none, and the number of "
+        "the class (f,) int64, from 0 on as they come.");
 }
 
 void bind_shared_sides(nb::module_& m) {

@@ -2,6 +2,16 @@
 
 namespace surfmesh {
 
+void BoundaryBuilder::reserve(std::size_t nodes, std::size_t uses) {
+    made_.uv.reserve(nodes);
+    made_.numbers.reserve(nodes);
+    made_.points.reserve(nodes);
+    made_.sizes.reserve(nodes);
+    made_.piece_end.reserve(uses);
+    made_.degenerate.reserve(uses);
+    made_.tolerance.reserve(uses);
+}
+
 void BoundaryBuilder::add(const EdgeNodeRows& nodes, const EdgeUse& use) {
     const std::size_t count = nodes.uv.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -14,29 +24,6 @@ void BoundaryBuilder::add(const EdgeNodeRows& nodes, const EdgeUse& use) {
     made_.piece_end.push_back(static_cast<std::int32_t>(made_.uv.size()));
     made_.degenerate.push_back(use.is_degenerate ? 1 : 0);
     made_.tolerance.push_back(use.tolerance);
-}
-
-std::vector<FaceBoundary> boundaries_of(const CoedgeRows& rows) {
-    std::vector<FaceBoundary> found;
-    found.reserve(rows.loops.size());
-    std::size_t loop = 0, coedge = 0;
-    for (const std::int32_t loops : rows.loops) {
-        BoundaryBuilder builder;
-        for (std::int32_t l = 0; l < loops; ++l, ++loop) {
-            for (std::int32_t c = 0; c < rows.coedges[loop]; ++c, ++coedge) {
-                const auto start = static_cast<std::size_t>(rows.first[coedge]);
-                const std::size_t count = static_cast<std::size_t>(rows.first[coedge + 1]) - start;
-                const auto& [uv, numbers, points, sizes] = rows.nodes;
-                builder.add({uv.subspan(start, count), numbers.subspan(start, count),
-                             points.subspan(start, count), sizes.subspan(start, count)},
-                            {rows.is_reversed[coedge] != 0, rows.is_degenerate[coedge] != 0,
-                             rows.tolerance[coedge]});
-            }
-            builder.end_loop();
-        }
-        found.push_back(builder.boundary());
-    }
-    return found;
 }
 
 }  // namespace surfmesh

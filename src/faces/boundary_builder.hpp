@@ -1,7 +1,7 @@
 // The boundaries of faces put together coedge by coedge, as their loops are walked.
 #pragma once
 
-#include <vector>
+#include <utility>
 
 #include "faces/face_boundary.hpp"
 
@@ -24,24 +24,15 @@ struct EdgeUse {
 
 class BoundaryBuilder {
   public:
+    /// Room for so many nodes and uses of edges.
+    void reserve(std::size_t nodes, std::size_t uses);
     void add(const EdgeNodeRows& nodes, const EdgeUse& use);
     void end_loop() { made_.loop_end.push_back(made_.pieces()); }
-    [[nodiscard]] const FaceBoundary& boundary() const { return made_; }
+    [[nodiscard]] FaceBoundary boundary() const& { return made_; }
+    [[nodiscard]] FaceBoundary boundary() && { return std::move(made_); }
 
   private:
     FaceBoundary made_;
 };
-
-/// The coedges of many faces, loop after loop: nodes of all in one row.
-struct CoedgeRows {
-    EdgeNodeRows nodes;                   // in the direction of the edges
-    std::span<const std::int64_t> first;  // of the coedges and behind the last: their rows
-    std::span<const std::uint8_t> is_reversed, is_degenerate;
-    std::span<const double> tolerance;
-    std::span<const std::int32_t> coedges;  // of the loops: how many
-    std::span<const std::int32_t> loops;    // of the faces: how many
-};
-
-[[nodiscard]] std::vector<FaceBoundary> boundaries_of(const CoedgeRows& rows);
 
 }  // namespace surfmesh

@@ -80,6 +80,17 @@ const BentPiece& piece_at(const Array<BentPiece>& pieces, double s) {
 
 double clipped(double x, double low, double high) { return std::min(std::max(x, low), high); }
 
+/// Coordinates of many parameters: of one that is that of the point before, as along a line in the
+/// direction of the other axis, it is known.
+template <class Parameter>
+void fill_coordinates(const ChartAxis& axis, std::span<const Point2> uv, Parameter parameter,
+                      Array<Point2>& xy) {
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+        const bool is_known = i > 0 && uv[i].*parameter == uv[i - 1].*parameter;
+        xy[i].*parameter = is_known ? xy[i - 1].*parameter : axis.coordinate(uv[i].*parameter);
+    }
+}
+
 /// The coordinate of a parameter where the axis is linear from knot to knot.
 double piecewise_linear(const ChartAxis& axis, double u) {
     const Array<double>& knots = axis.knots;
@@ -147,7 +158,9 @@ double ChartAxis::coordinate(double given) const {
     const Knots by_knots(*this);
     for (int k = 0; k < INVERSION_STEPS; ++k) {
         const ValueAndRate at = by_knots.at(x);
-        x = clipped(x - (at.value - given) / at.rate, 0.0, extent);
+        const double next = clipped(x - (at.value - given) / at.rate, 0.0, extent);
+        if (next == x) break;  // as all steps from here would be
+        x = next;
     }
     return x;
 }
@@ -196,7 +209,12 @@ Array<Point2> Chart::to_uv(std::span<const Point2> xy) const {
 
 Array<Point2> Chart::to_plane(std::span<const Point2> uv) const {
     Array<Point2> xy(uv.size());
-    for (std::size_t i = 0; i < uv.size(); ++i) xy[i] = to_plane(uv[i]);
+    if (!scaling.is_none()) {
+        for (std::size_t i = 0; i < uv.size(); ++i) xy[i] = to_plane(uv[i]);
+        return xy;
+    }
+    fill_coordinates(u, uv, &Point2::x, xy);
+    fill_coordinates(v, uv, &Point2::y, xy);
     return xy;
 }
 

@@ -64,6 +64,16 @@ def cut_to_metric_length(curves: CurvePieces, points: Annotated[NDArray[numpy.fl
     points (n, 3), fraction (n,), sizes (n,): samples, of edge e those from first[e] to first[e + 1]; ends (e, 2): rows of corners (v, 3). fewest (k,): pieces. given: the nodes of row i from first_given[i] to first_given[i + 1], none where they are to be found. chord (k,): what a found piece may sag by at most, infinite for nothing, unless its chord is no longer than shortest (k,).
     """
 
+def rows_of(first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    The rows first[k] to first[k + 1] of each k in which (n,), one after the other: (m,) int64.
+    """
+
+def node_numbers(first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], known: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], following: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    Numbers (n,) int64 of the nodes of edges, of edge k those from first[k] to first[k + 1]: ends (k, 2) are theirs; nodes with one in known (n,), not -1, keep it, and the others count on from ``following``. known (0,): there is none.
+    """
+
 ROUND_A_TUBE: float = 3.455751918948773
 
 def narrow_faces(curves: CurvePieces, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_loop: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: float, faces: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], width: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pcurves: CurvePieces, surfaces: list) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:

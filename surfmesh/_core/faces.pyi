@@ -7,6 +7,7 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+import surfmesh._core.edges
 import surfmesh._core.fields
 import surfmesh._core.patch
 import surfmesh._core.sizing
@@ -94,16 +95,14 @@ class BoundaryBuilder:
 
     def boundary(self) -> FaceBoundary: ...
 
-def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], coedges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loops: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list[FaceBoundary]:
-    """
-    The boundaries of many faces.
+def fewest_triangles(boundaries: Sequence[FaceBoundary]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Within each of them (f,) when no node lies inside."""
 
-    uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
+def alike_faces(boundaries: Sequence[FaceBoundary], areas: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sorts: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
+    Faces whose loops have as many segments, as long, with sizes as large, and areas (f,) as large, all to six digits, if their sorts (f,) int64 are the same.
 
-def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 4))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
-    """
-    Of the loops of many boundaries: segments, length of the polygon, sum of the finite sizes and their number (l, 4); and where those of each boundary begin.
+    The fewest triangles (f,), the mean size at the nodes (f,), infinite where there are none, and the number of the class (f,) int64, from 0 on as they come.
     """
 
 def has_crowded_side(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], shared: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
@@ -127,6 +126,21 @@ class FacePolygons:
     @staticmethod
     def of(boundary: FaceBoundary) -> FacePolygons:
         """Those of a boundary without degenerate coedges."""
+
+class CoedgeTable:
+    """The coedges of all faces of a model."""
+
+    def __init__(self, pcurves: surfmesh._core.edges.CurvePieces, edge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_loop: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_loop_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
+        """
+        edge, is_reversed (c,): of the coedges, loop after loop, face after face. first_of_loop (l + 1,): coedges of the loops; first_loop_of_face (f + 1,): loops of the faces. tolerance, start (e,): of the edges, the vertex of the mesh that they start at; corners (v, 3): points of these.
+        """
+
+    def boundaries(self, faces: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list[FaceBoundary]:
+        """
+        Of some faces (f,), when their edges have these nodes.
+
+        first (e + 1,): rows of the edges, none of one that is a point in space. t, points (n, 3), numbers, sizes: normalised parameters, places, numbers in the mesh and wanted lengths.
+        """
 
 class CoarseSegments:
     """
@@ -210,10 +224,16 @@ class InwardFace:
     A face with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges.
     """
 
-    def __init__(self, surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: FaceManner, look_for_tubes: bool = False) -> None:
-        """
-        Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
-        """
+    @property
+    def largest(self) -> float: ...
+
+    @property
+    def on_lattice(self) -> bool: ...
+
+def inward_face(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, radius: float | None, asked: surfmesh._core.sizing.AskedRules, slope: float, manner: FaceManner, look_for_tubes: bool = False) -> InwardFace | None:
+    """
+    A plane (radius None) or a cylinder whose sizes grow by ``slope`` per length up to what the rules allow; None where a coedge is degenerate, or the box of the boundary has no area. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
+    """
 
 class GradedFace:
     """A face whose sizes follow from its curvature and its edges."""

@@ -160,8 +160,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     balanced = asked.base.is_balanced
     if balanced:  # what is made first, with its vertices on the surface
         wide = widened_model(asked)
-        sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
-    before = UnmeshedModel(model, sizing, few=True)
+        asked = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
+    before = UnmeshedModel(model, asked, few=True)
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
@@ -170,12 +170,12 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     counts: np.ndarray | None = None
     if not small:
         counts = before.counts(fields)
-        foreseen = is_foreseen(sizings, counts, before.alike.outlines.fewest, before.bends)
+        foreseen = is_foreseen(sizings, counts, before.alike.fewest, before.bends)
         small = counts.sum() <= (FEW if foreseen else whole)
     if small:
         samples = before.samples if stretched else None  # else there are too few
         made = counts_within_budget(lambda budget: mesh_model(
-            model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS, samples=samples
+            model, asked, progress=budget, strict=False, rounds=TRIAL_ROUNDS, samples=samples
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)
@@ -192,9 +192,9 @@ def _follows_curvature(sizing: Sizing) -> bool:
 def _least(before: UnmeshedModel, balanced: bool) -> float | None:
     """The fewest triangles that the chords of the faces allow; None without any."""
     asked = [face.sizing.chord for face in before.faces]
-    chords = np.array([np.inf if chord is None else chord for chord in asked])
-    if before.wanted.base.is_curved or not np.isfinite(chords).any():
+    if before.wanted.base.is_curved or all(chord is None for chord in asked):
         return None
+    chords = np.array([np.inf if chord is None else chord for chord in asked])
     chords /= WIDER if balanced else 1.0
     return least_of_model(before.model, before.nodes, before.jobs, chords, balanced)
 

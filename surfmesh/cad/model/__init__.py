@@ -1,6 +1,7 @@
 """A CAD model as plain data, without OCP, and what is true of it.
 
 cad_model: a CAD model as plain data: vertices, edges, faces and solids by number, no OCP anywhere.
+is_cad_model: is it a CAD model? Asked without importing one.
 curve_samples: points of many coedges and edges at once.
 invariants: what must be true of a CAD model, and how far a model is from it.
 incidence: how often faces use each edge, and how many fans they form at each vertex of a model.

@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from surfmesh._core.edges import CurvePieces
+from surfmesh._core.faces import CoedgeTable
 from surfmesh.cad.model.cad_model import CadCoedge, CadModel
 from surfmesh.cad.model.collapsed_edges import collapsed_edges, vertex_numbers
 
@@ -123,6 +124,16 @@ class ModelArrays:
         return self.vertex[self.ends]
 
     @cached_property
+    def bent_edges(self) -> np.ndarray:
+        """(k,) edges that are neither straight nor collapsed, rising."""
+        return np.flatnonzero(~self.straight & ~self.collapsed)
+
+    @cached_property
+    def is_closed(self) -> np.ndarray:
+        """(e,) bool: the edge starts and ends at one vertex of a mesh."""
+        return self.mesh_ends[:, 0] == self.mesh_ends[:, 1]
+
+    @cached_property
     def has_twin(self) -> np.ndarray:
         """(e,) bool: another edge joins the same two vertices of a mesh."""
         there = ~self.collapsed
@@ -146,6 +157,15 @@ class ModelArrays:
         return _pieces(curves, [(coedge.p0, coedge.p1) for coedge in self.coedges])
 
     @cached_property
+    def coedge_table(self) -> CoedgeTable:
+        """What boundaries of faces are made from, when the edges are cut."""
+        return CoedgeTable(
+            self.pcurves, self.coedge_edge, self.coedge_reversed.view(np.uint8),
+            self.first_of_loop, self.first_loop_of_face, self.tolerance,
+            np.ascontiguousarray(self.mesh_ends[:, 0]), self.corners,
+        )  # fmt: skip
+
+    @cached_property
     def coedge_reversed(self) -> np.ndarray:
         """(c,) bool."""
         return np.array([coedge.reversed for coedge in self.coedges], bool)
@@ -154,15 +174,13 @@ class ModelArrays:
 def offsets(counts: np.ndarray) -> np.ndarray:
     """Where rows of so many (n,) begin, and how many there are in all: (n + 1,) int64."""
     found = np.zeros(len(counts) + 1, np.int64)
-    np.cumsum(counts, out=found[1:])
+    counts.cumsum(out=found[1:])
     return found
 
 
-def rows_of(first: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """The rows first[k] to first[k + 1] of each k in ``which``, one after the other: (n,) int64."""
-    count = first[which + 1] - first[which]
-    own = offsets(count)
-    return np.repeat(first[which] - own[:-1], count) + np.arange(own[-1])
+def counts_of(first: np.ndarray) -> np.ndarray:
+    """How many rows there are from each offset to the next: (n,) of (n + 1,)."""
+    return first[1:] - first[:-1]
 
 
 def _pieces(curves: list, limits: list[tuple[float, float]]) -> CurvePieces:

@@ -19,9 +19,11 @@ from surfmesh._core.edges import (
     graded_over_faces,
     lowered_to_mates,
     mated_cuts,
+    node_numbers,
+    rows_of,
 )
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
+from surfmesh.cad.model.model_arrays import counts_of, model_arrays, offsets
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_gradation import graded_by_direction
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -39,7 +41,7 @@ MATED_TURNS, LEAST_CHANGE = 3, 0.97
 """How often sizes are graded and lowered to those of mates, at most; where that lowers none by this
 factor they agree."""
 
-_NONE = np.empty(0)
+_NONE, _NO_NUMBERS = np.empty(0), np.empty(0, np.int64)
 
 CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
 """Fewest segments of an edge that ends where it starts, and of a curved one beside another edge
@@ -59,7 +61,7 @@ class EdgeNodes(NamedTuple):
     """(n,) wanted edge lengths."""
 
 
-_NO_NODES = EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
+_NO_NODES = EdgeNodes(_NONE, np.empty((0, 3)), _NO_NUMBERS, _NONE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +201,7 @@ def _graded_by_direction(
     model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
     """Sizes (n,) at the samples, where those along two edges differ at their vertex."""
-    there = np.flatnonzero(np.diff(samples.first)).tolist()
+    there = np.flatnonzero(counts_of(samples.first)).tolist()
     if not there:
         return target_size
     ends = model_arrays(model).mesh_ends[there]
@@ -216,10 +218,10 @@ def _graded_by_direction(
 def _fewest(model: CadModel, samples: EdgeSamples) -> np.ndarray:
     """Segments (e,) that edges need for their shape and for their topology."""
     most = np.where(samples.tiny, LARGEST_TURN_TINY, LARGEST_TURN)
-    fewest = np.maximum(1, np.ceil(samples.total_curvature / most - 1e-9)).astype(np.int64)
-    fewest[samples.has_twin] = np.maximum(fewest[samples.has_twin], TWIN_SEGMENTS)
-    start, end = model_arrays(model).mesh_ends.T
-    return np.maximum(fewest, np.where(start == end, CLOSED_SEGMENTS, 1))
+    of_shape = np.ceil(samples.total_curvature / most - 1e-9)
+    of_ends = np.where(samples.has_twin, TWIN_SEGMENTS, 1)
+    of_ends[model_arrays(model).is_closed] = CLOSED_SEGMENTS
+    return np.maximum(of_shape, of_ends).astype(np.int64)
 
 
 def _mated(
@@ -258,12 +260,14 @@ def _cut(
 ) -> _Cuts:  # fmt: skip
     """Segments of equal metric length near 1, or those between given parameters; of all edges."""
     arrays = model_arrays(model)
-    edges = np.flatnonzero(np.diff(samples.first))
-    given = [mated.get(edge, _NONE) for edge in edges.tolist()] if mated else []
-    first_given = offsets(np.array([len(t) for t in given] or np.zeros(len(edges)), np.int64))
+    edges = np.flatnonzero(counts_of(samples.first))
+    given, count = [_NONE], np.zeros(len(edges), np.int64)
+    if mated:
+        given = [mated.get(edge, _NONE) for edge in edges.tolist()]
+        count = np.array([len(t) for t in given], np.int64)
     first, t, points, found, refused, segments = cut_to_metric_length(
         arrays.curves, samples.points, samples.t, sizes, samples.first, arrays.mesh_ends,
-        arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]),
+        arrays.corners, edges, fewest[edges], offsets(count), np.concatenate([_NONE, *given]),
         _chords(samples)[edges], samples.shortest[edges], limit,
     )  # fmt: skip
     if refused >= 0:
@@ -279,29 +283,24 @@ def _cut(
 
 def _numbered(model: CadModel, cuts: _Cuts, before: CutEdges | None) -> CutEdges:
     """What has not changed keeps its nodes, others get new numbers."""
-    edges, count = cuts.edges, np.diff(cuts.first)
-    changed = ~_unchanged(cuts, before) if before else np.ones(len(edges), bool)
-    numbers = np.empty(len(cuts.t), np.int64)
-    ends = np.stack([cuts.first[:-1], cuts.first[1:] - 1], axis=1)
-    is_new = np.repeat(changed, count)
-    is_new[ends] = False
-    following = max(len(model.vertices), 1 + int(before.rows.numbers.max()) if before else 0)
-    numbers[is_new] = following + np.arange(int(is_new.sum()))
-    numbers[ends] = model_arrays(model).mesh_ends[edges]
+    edges, known, following = cuts.edges, _NO_NUMBERS, len(model.vertices)
     every, made = np.zeros((2, len(model.edges)), np.int64)
-    every[edges] = count
+    every[edges] = counts_of(cuts.first)
     if before:
-        kept = edges[~changed]
-        numbers[np.repeat(~changed, count)] = before.rows.numbers[rows_of(before.first, kept)]
+        kept, numbers = _unchanged(cuts, before), before.rows.numbers
+        following = max(following, 1 + int(numbers.max()))
+        known = np.full(len(cuts.t), -1)
+        known[np.repeat(kept, every[edges])] = numbers[rows_of(before.first, edges[kept])]
         made[:] = before.made
-        made[edges[changed]] = 1 + before.made.max()
+        made[edges[~kept]] = 1 + before.made.max()
+    numbers = node_numbers(cuts.first, model_arrays(model).mesh_ends[edges], known, following)
     return CutEdges(offsets(every), EdgeNodes(cuts.t, cuts.points, numbers, cuts.sizes), made)
 
 
 def _unchanged(cuts: _Cuts, before: CutEdges) -> np.ndarray:
     """Of the cut edges (k,): are their places and sizes those of before to the last bit?"""
-    count = np.diff(cuts.first)
-    found = np.diff(before.first)[cuts.edges] == count
+    count = counts_of(cuts.first)
+    found = counts_of(before.first)[cuts.edges] == count
     if not found.any():
         return found
     old, new = rows_of(before.first, cuts.edges[found]), np.repeat(found, count)

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core.edges import curvatures_along, edge_courses
+from surfmesh._core.edges import curvatures_along, edge_courses, rows_of
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets, rows_of
+from surfmesh.cad.model.model_arrays import ModelArrays, counts_of, model_arrays, offsets
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
@@ -166,7 +166,7 @@ class EdgeRules:
 
     def target_size(self, courses: Courses, left_out: Collection[int] = ()) -> np.ndarray:
         """The least of all demands (n,), and no more than the edge is long."""
-        count = np.diff(courses.first)
+        count = counts_of(courses.first)
         longest = np.maximum(self.arrays.length[courses.edges], NARROWEST * self.model.diagonal)
         size, floor = np.repeat(longest, count), np.array(np.inf)  # one for all, or (n,)
         for own in self.demands(courses, left_out):
@@ -185,7 +185,7 @@ class EdgeRules:
         it or it is straight; and how long a segment is that is not cut for it."""
         count = len(self.model.edges)
         chord, shortest = np.full(count, np.inf), np.zeros(count)
-        for own in self._hearings(np.flatnonzero(~self.arrays.straight & ~self.arrays.collapsed)):
+        for own in self._hearings(self.arrays.bent_edges):
             edges, allowed = own.edges, own.sizing.straight_chord
             if allowed is not None:
                 chord[edges] = np.minimum(chord[edges], allowed)
@@ -246,11 +246,13 @@ class EdgeRules:
             yield Demand(place_rule, None, sizes)
 
     def _by_own_curvature(self, rules: SizeRules, courses: Courses) -> Iterator[Demand]:
+        if not rules.follows_curvature:
+            return
         bent = np.flatnonzero(~self.arrays.straight[courses.edges])
-        if not len(bent) or not rules.by_curvature:
+        if not len(bent):
             return
         own, rows = courses.chosen(bent)
-        tolerance = np.repeat(self.arrays.tolerance[own.edges], np.diff(own.first))
+        tolerance = np.repeat(self.arrays.tolerance[own.edges], counts_of(own.first))
         curve = CurveSamples(own.points, own.curvature, own.first, tolerance)
         for rule in rules.by_curvature:
             yield Demand(rule, rows, rule.sizes_on_curve(curve), None, (curve.curvature,))

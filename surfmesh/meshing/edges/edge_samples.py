@@ -5,9 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
-from surfmesh._core.edges import MateRuns
+from surfmesh._core.edges import MateRuns, rows_of
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import offsets, rows_of
+from surfmesh.cad.model.model_arrays import offsets
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,11 @@ class NarrowFace:
     """Largest way across, model units."""
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class EdgeSamples:
-    """Of all edges in one row; edge k has those from first[k] to first[k + 1], ends included."""
+    """Of all edges in one row; edge k has those from first[k] to first[k + 1], ends included.
+
+    ``sample_edges`` fills them in step by step; nothing changes afterwards."""
 
     first: np.ndarray
     """(e + 1,) int64. Edges that are one vertex of the mesh have no samples."""

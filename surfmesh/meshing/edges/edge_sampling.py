@@ -7,13 +7,15 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
-from dataclasses import replace
+from collections.abc import Sequence
+from typing import NamedTuple, Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from surfmesh._core.edges import gap_sizes
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets
 from surfmesh.meshing.edges.edge_mates import NO_RUNS, mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -52,16 +54,13 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
     """
     rules = EdgeRules(model, sizing)
     arrays = rules.arrays
-    edges = np.flatnonzero(~arrays.collapsed)
-    fractions = _fractions(rules, edges, few)
-    first = offsets(np.array([len(own) for own in fractions], np.int64))
-    courses = Courses.of(arrays, edges, first, np.concatenate([np.empty(0), *fractions]))
-    count, total_curvature = np.zeros((2, len(model.edges)))
-    count[edges], total_curvature[edges] = np.diff(first), courses.total_curvature
-    first = offsets(count.astype(np.int64))
+    places = _places(rules, few)
+    courses = Courses.of(arrays, places.edges, places.first, places.fraction)
+    total_curvature = np.zeros(len(model.edges))
+    total_curvature[places.edges] = courses.total_curvature
     samples = EdgeSamples(
-        first,
-        courses.fraction,
+        places.first_of_all,
+        places.fraction,
         courses.points,
         rules.target_size(courses),
         courses.tangent if sizing.is_anisotropic else np.empty((0, 3)),
@@ -75,30 +74,61 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         np.zeros(len(model.edges), bool),
         np.zeros(len(model.edges), bool),
         NO_RUNS,
-        np.full(int(first[-1]), np.inf),
+        np.full(len(places.fraction), np.inf),
     )
     _find_narrow(samples, rules)
-    samples = replace(samples, mates=mate_runs(model, samples))
+    samples.mates = mate_runs(model, samples)
     _apply_vertices(samples, rules)
     _apply_gaps(model, samples, sizing)
     return samples
 
 
-def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarray]:
-    """Of the parameter ranges of the edges, where they are sampled."""
-    wanted = rules.wanted
-    grids = [_STRAIGHT if even else _CURVED for even in rules.arrays.straight[edges].tolist()]
-    if few:
-        curves = [rules.model.edges[edge].curve for edge in edges.tolist()]
-        grids = [_OF_KIND.get(getattr(curve, "kind", ""), _CURVED) for curve in curves]
+class _Places(NamedTuple):
+    """Where edges are sampled."""
+
+    edges: np.ndarray
+    """(k,) that are not collapsed, rising."""
+    first: np.ndarray
+    """(k + 1,) samples of these."""
+    fraction: np.ndarray
+    """(n,) of their parameter ranges."""
+    first_of_all: np.ndarray
+    """(e + 1,) samples of all edges."""
+
+    @classmethod
+    def of(cls, arrays: ModelArrays, fractions: Sequence[np.ndarray]) -> Self:
+        """fractions: of each edge that is not collapsed."""
+        edges, count = np.flatnonzero(~arrays.collapsed), np.zeros(len(arrays.length), np.int64)
+        count[edges] = [len(own) for own in fractions]
+        fraction = np.concatenate([np.empty(0), *fractions])
+        return cls(edges, offsets(count[edges]), fraction, offsets(count))
+
+
+_KNOWN: WeakKeyDictionary[CadModel, dict[bool, _Places]] = WeakKeyDictionary()  # few or not
+
+
+def _places(rules: EdgeRules, few: bool) -> _Places:
+    """The same for all sizes without laws."""
+    wanted, model, arrays = rules.wanted, rules.model, rules.arrays
+    known = _KNOWN.setdefault(model, {})
+    if few not in known:
+        known[few] = _Places.of(arrays, _grids(model, arrays, few))
     if not any(
         own.has_law for own in (wanted.base, *wanted.faces.values(), *wanted.edges.values())
     ):
-        return grids
-    return [
-        _with_hidden(rules.model.edges[edge], grid, rules.sizings_at(edge))
-        for edge, grid in zip(edges.tolist(), grids)
-    ]
+        return known[few]
+    grids = zip(known[few].edges.tolist(), _grids(model, arrays, few))
+    finer = [_with_hidden(model.edges[k], grid, rules.sizings_at(k)) for k, grid in grids]
+    return _Places.of(arrays, finer)
+
+
+def _grids(model: CadModel, arrays: ModelArrays, few: bool) -> list[np.ndarray]:
+    """Of each edge that is not collapsed, by how it bends."""
+    edges = np.flatnonzero(~arrays.collapsed).tolist()
+    if few:
+        kinds = [getattr(model.edges[edge].curve, "kind", "") for edge in edges]
+        return [_OF_KIND.get(kind, _CURVED) for kind in kinds]
+    return [_STRAIGHT if even else _CURVED for even in arrays.straight[edges].tolist()]
 
 
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
@@ -177,18 +207,21 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         return
     ends = model_arrays(model).mesh_ends
     by_sizes: dict[tuple[float | None, float, float], list[np.ndarray]] = {}
-    wide = samples.is_wide  # across others is nothing to be meshed, nor beside the end of one side
     for own, numbers in sizing.sets(len(model.faces)):
-        some = numbers[wide[numbers]]
-        for narrow in np.unique(samples.narrow_width[some]).tolist():
-            same = some[samples.narrow_width[some] == narrow]
+        if samples.narrow:  # across them is nothing to be meshed, nor beside the end of one side
+            numbers = numbers[samples.is_wide[numbers]]
+        width = samples.narrow_width[numbers]
+        for narrow in sorted(set(width.tolist())):
+            same = numbers[width == narrow]
             by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(same)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
     narrowest = NARROWEST * model.diagonal
     asked = samples.target_size
     for (count, least, narrow), faces in by_sizes.items():
-        first, edges = samples.edges_of_faces(np.concatenate(faces))
+        first, edges = samples.edges_of_wide_faces
+        if len(by_sizes) > 1:
+            first, edges = samples.edges_of_faces(np.concatenate(faces))
         if not first[-1]:
             continue
         fraction = 1.0 if count is None else size_across(1.0, count, slope)

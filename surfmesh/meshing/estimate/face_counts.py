@@ -11,17 +11,15 @@ few triangles all together are not looked at: what their nodes and areas say is 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from surfmesh._core.faces import loop_figures
+from surfmesh._core.faces import alike_faces, fewest_triangles
 from surfmesh.meshing.estimate.estimation import combined
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.metric_area import TRIANGLES
-from surfmesh.sizing.options.sizing import Sizing
 
 CLASSES = 32
 """Of each population all are looked at closely up to so many, so many of more than that."""
@@ -30,62 +28,19 @@ FEW = 0.01
 """Share of the triangles that are told from nodes and areas alone, at most: faces of classes that
 could not hold more whatever their sizes inside."""
 
-DIGITS = 6
-"""To which alike faces agree in lengths, areas and sizes."""
-
-
-class Outlines(NamedTuple):
-    """What the loops of faces say of them."""
-
-    segments: np.ndarray
-    """(f,) of all loops of each face."""
-    loops: np.ndarray
-    """(f,) how many it has."""
-    size: np.ndarray
-    """(f,) mean of the sizes at the nodes; infinite where there are none."""
-    alike: tuple[bytes, ...]
-    """Of the loops of each face in one order: how many segments, how long, and the sum of the
-    sizes there, rounded, as bytes that are the same where these are."""
-
-    @classmethod
-    def of(cls, jobs: Sequence[FaceJob]) -> Self:
-        if not jobs:
-            return cls(np.empty(0), np.empty(0, int), np.empty(0), ())
-        figures, first = loop_figures([job.boundary for job in jobs])
-        loops = np.diff(first)
-        face = np.repeat(np.arange(len(jobs)), loops)
-        segments, _, sizes, sized = (
-            np.bincount(face, weights=column, minlength=len(jobs)) for column in figures.T
-        )
-        rows = np.column_stack([figures[:, 0], _rounded(figures[:, 1:3])])
-        rows = rows[np.lexsort((*rows.T[::-1], face))]
-        data, width = rows.tobytes(), rows.itemsize * rows.shape[1]
-        alike = tuple(data[a:b] for a, b in pairwise((width * first).tolist()))
-        size = np.full(len(jobs), np.inf)
-        np.divide(sizes, sized, out=size, where=sized > 0.0)
-        return cls(segments, loops, size, alike)
-
-    @property
-    def fewest(self) -> np.ndarray:
-        """Triangles (f,) within the loops when no node lies inside, by Euler's formula."""
-        return self.segments + 2.0 * self.loops - 4.0
-
 
 def fewest_of(jobs: Sequence[FaceJob]) -> np.ndarray:
-    """``Outlines.fewest`` alone."""
-    if not jobs:
-        return np.empty(0)
-    figures, first = loop_figures([job.boundary for job in jobs])
-    loops = np.diff(first)
-    face = np.repeat(np.arange(len(jobs)), loops)
-    return np.bincount(face, figures[:, 0], len(jobs)) + 2.0 * loops - 4.0
+    """Triangles (f,) within the loops of faces when no node lies inside, by Euler's formula."""
+    return np.asarray(fewest_triangles([job.boundary for job in jobs]))
 
 
 class Alike(NamedTuple):
     """Faces in classes of alike ones."""
 
-    outlines: Outlines
-    """Of all faces."""
+    fewest: np.ndarray
+    """(f,) as ``fewest_of``."""
+    size: np.ndarray
+    """(f,) mean of the sizes at the nodes; infinite where there are none."""
     first: np.ndarray
     """(k,) the first face of each class."""
     of: np.ndarray
@@ -94,10 +49,7 @@ class Alike(NamedTuple):
     @classmethod
     def among(cls, jobs: list[FaceJob], areas: np.ndarray) -> Self:
         """areas: (f,) of the faces."""
-        outlines, known = Outlines.of(jobs), dict[Any, int]()
-        keys = _likenesses(jobs, _rounded(areas), outlines)
-        of = np.array([known.setdefault(key, len(known)) for key in keys], int)
-        return cls(outlines, np.unique(of, return_index=True)[1], of)
+        return cls(*alike_faces([job.boundary for job in jobs], areas, _sorts(jobs)))
 
     @property
     def leader(self) -> np.ndarray:
@@ -111,9 +63,9 @@ def counts_of_faces(
 ) -> np.ndarray:  # fmt: skip
     """Triangles (f,) on each face. areas: (f,) of the faces; most: (f,) that fit on them by their
     area, infinite where nothing is known; count: of some by their numbers, after a closer look."""
-    outlines, first = alike.outlines, alike.first
-    inside = TRIANGLES * areas[first] / outlines.size[first] ** 2
-    rough = np.maximum(combined(inside, outlines.fewest[first]), 1.0)
+    first = alike.first
+    inside = TRIANGLES * areas[first] / alike.size[first] ** 2
+    rough = np.maximum(combined(inside, alike.fewest[first]), 1.0)
     members = np.bincount(alike.of, minlength=len(first))
     weight = rough * members
     leaders = [jobs[face] for face in first.tolist()]
@@ -136,9 +88,9 @@ def counts_of_faces(
 
 def _are_few(most: np.ndarray, total: float) -> np.ndarray:
     """Which classes of at most so many triangles (k,) hold few of all of them together?"""
-    order = np.argsort(most, kind="stable")
+    order = most.argsort(kind="stable")
     found = np.empty(len(most), bool)
-    found[order] = np.cumsum(most[order]) <= FEW * total
+    found[order] = most[order].cumsum() <= FEW * total
     return found
 
 
@@ -147,29 +99,24 @@ def _sample(of: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     classes."""
     if len(of) <= CLASSES:
         return of, np.ones(len(of))
-    sums = np.cumsum(weight[of])
+    sums = weight[of].cumsum()
     at = (np.arange(CLASSES) + 0.5) / CLASSES * sums[-1]
     return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
 
 
-def _likenesses(jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines) -> Iterator[Any]:
-    """What alike faces have in common; the number of a face where its place counts too."""
-    known: dict[Sizing, int] = {}
+def _sorts(jobs: list[FaceJob]) -> np.ndarray:
+    """(f,) int64, the same of faces that are alike but for their loops and areas; those are alike
+    to none whose place counts too."""
     sizings = {id(job.sizing): job.sizing for job in jobs}
-    of_sizing = {
-        key: None if own.has_law or own.sources else known.setdefault(own, len(known))
-        for key, own in sizings.items()
-    }
-    for number, (job, area, loops) in enumerate(zip(jobs, areas.tolist(), outlines.alike)):
-        sizing = of_sizing[id(job.sizing)]
-        if job.limits is not None or sizing is None:
-            yield number
-        else:
-            yield job.surface.kind, sizing, job.narrow is not None, area, loops
+    kept = {key: None if own.has_law or own.sources else own for key, own in sizings.items()}
+    known: dict[Any, int] = {}
+    number_of = {key: own and known.setdefault(own, len(known)) for key, own in kept.items()}
+    sorts: dict[Any, int] = {}
 
+    def sort(number: int, job: FaceJob) -> int:
+        sizing = number_of[id(job.sizing)]
+        is_alone = job.limits is not None or sizing is None
+        own = number if is_alone else (job.surface.kind, sizing, job.narrow is not None)
+        return sorts.setdefault(own, len(sorts))
 
-def _rounded(values: np.ndarray) -> np.ndarray:
-    """To ``DIGITS`` digits, in the shape that they have."""
-    size = np.where(values > 0.0, values, 1.0)
-    scale = 10.0 ** (DIGITS - 1 - np.floor(np.log10(size)))
-    return np.where(values > 0.0, np.rint(size * scale) / scale, values)
+    return np.array([sort(number, job) for number, job in enumerate(jobs)], np.int64)

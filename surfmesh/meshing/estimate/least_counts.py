@@ -89,8 +89,8 @@ def _over_cells(
 def _in_fours(low: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Corners and sides of the cells that the leaves are the quarters of: as a background is made
     its leaves come in fours, one after the other."""
-    corners = low.reshape(-1, 4, 2).min(axis=1)
-    return corners, (low + step).reshape(-1, 4, 2).max(axis=1) - corners
+    corners = np.minimum.reduce([low[k::4] for k in range(4)])
+    return corners, np.maximum.reduce([(low + step)[k::4] for k in range(4)]) - corners
 
 
 def least_of_model(

@@ -8,11 +8,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from surfmesh._core.edges import curvatures_at
+from surfmesh._core.edges import curvatures_at, rows_of
 from surfmesh._core.faces import metric_areas_inward
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import cell_centres, inner_samples
-from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
+from surfmesh.cad.model.model_arrays import counts_of, model_arrays, offsets
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
@@ -135,6 +135,8 @@ class _Curvatures(NamedTuple):
     k2: np.ndarray
     regular: np.ndarray
     """(n,) bool: curvatures (n,) are known there."""
+    largest: np.ndarray
+    """(n,) the larger of them, without its sign; 0 where they are not known."""
 
     @classmethod
     def of(cls, model: CadModel) -> Self:
@@ -147,7 +149,9 @@ class _Curvatures(NamedTuple):
         at[np.repeat(count > 1, count)] = np.tile(cell_centres(FEW), ((count > 1).sum(), 1))
         low, side = np.repeat(box[..., 0], count, 0), np.repeat(np.diff(box)[..., 0], count, 0)
         k1, k2, degenerate = curvatures_at(low + at * side, first, [own.core for own in surfaces])
-        return cls(faces, first, k1, k2, ~degenerate.astype(bool))
+        regular = ~degenerate.astype(bool)
+        largest = np.where(regular, np.maximum(np.abs(k1), np.abs(k2)), 0.0)
+        return cls(faces, first, k1, k2, regular, largest)
 
 
 _KNOWN: WeakKeyDictionary[CadModel, _Curvatures] = WeakKeyDictionary()  # of any sizes the same
@@ -174,7 +178,6 @@ class Bends(NamedTuple):
         """sizings: of the faces."""
         known, rules = _curvatures(model), dict[int, SizeRules]()
         least, turn = np.full(len(sizings), np.inf), np.zeros(len(sizings))
-        largest = np.where(known.regular, np.maximum(np.abs(known.k1), np.abs(known.k2)), 0.0)
         own = np.array([id(sizings[face]) for face in known.faces.tolist()], int)
         for sizing in {id(sizing): sizing for sizing in sizings}.values():
             allowed = rules[id(sizing)] = SizeRules.of(sizing, model.diagonal)
@@ -186,12 +189,13 @@ class Bends(NamedTuple):
             if len(which) < len(own):
                 rows = rows_of(known.first, which)
                 start = offsets(known.first[which + 1] - known.first[which])[:-1]
-            faces, sizes = known.faces[which], np.full(len(largest[rows]), allowed.clamp[1])
+            faces, largest = known.faces[which], known.largest[rows]
+            sizes = np.full(len(largest), allowed.clamp[1])
             if allowed.follows_curvature:
                 found = allowed.shorter(known.k1[rows], known.k2[rows])
                 sizes = np.where(known.regular[rows], found, sizes)
                 least[faces] = np.minimum.reduceat(sizes, start)
-            turn[faces] = np.maximum.reduceat(sizes * largest[rows], start)
+            turn[faces] = np.maximum.reduceat(sizes * largest, start)
         return cls(least, turn, rules)
 
 
@@ -202,7 +206,7 @@ def quick_bounds(
     faces at once; infinite where sizes depend on the place by a law."""
     arrays = model_arrays(model)
     edges = np.full(len(nodes), np.inf)
-    cut = np.flatnonzero(np.diff(nodes.first))
+    cut = np.flatnonzero(counts_of(nodes.first))
     if len(cut):
         edges[cut] = np.minimum.reduceat(nodes.rows.sizes, nodes.first[cut])
     smallest = bends.least.copy()
@@ -213,7 +217,8 @@ def quick_bounds(
             return np.full(len(sizings), np.inf)
         floor, top = bends.rules[id(sizing)].clamp
         limits[id(sizing)] = floor, min([top, *(getattr(s, "size", top) for s in sizing.sources)])
-    floors, tops = np.array([limits[id(sizing)] for sizing in sizings]).reshape(-1, 2).T
+    every = [limits[id(sizing)] for sizing in sizings] if len(limits) > 1 else [*limits.values()]
+    floors, tops = np.array(every).reshape(-1, 2).T  # one for all, or (f,)
     smallest = np.maximum(np.minimum(smallest, tops), floors)
     return TRIANGLES * arrays.area / smallest**2
 
@@ -227,8 +232,11 @@ def is_foreseen(
     """
     if not all(map(is_one_round, {id(sizing): sizing for sizing in sizings}.values())):
         return False
-    bent = np.where(bends.turn > LARGEST_TURN, counts * (bends.turn / LARGEST_TURN) ** 2, 0.0)
-    unknown = np.maximum(bent, thin_counts(counts, fewest))
+    unknown = thin_counts(counts, fewest)
+    folded = bends.turn > LARGEST_TURN
+    if folded.any():
+        bent = np.where(folded, counts * (bends.turn / LARGEST_TURN) ** 2, 0.0)
+        unknown = np.maximum(unknown, bent)
     return float(unknown.sum()) <= FEW_UNKNOWN * float(counts.sum())
 
 

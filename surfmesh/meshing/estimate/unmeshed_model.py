@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from surfmesh._core.edges import rows_of
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, rows_of
+from surfmesh.cad.model.model_arrays import model_arrays
 from surfmesh.meshing.edges.edge_nodes import cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.model_rules import with_model_rules

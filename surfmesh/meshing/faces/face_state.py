@@ -5,11 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from surfmesh._core.faces import face_boundaries
 from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
-from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
-from surfmesh.meshing.edges.edge_nodes import CutEdges, EdgeNodes
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_jobs import FaceJobs
@@ -103,15 +102,8 @@ def face_jobs(
     limits: Mapping[int, SizeLimits] | None = None, optimise: bool = True,
 ) -> list[FaceJob]:  # fmt: skip
     """What some faces are meshed from when the edges have these nodes; limits: by face."""
-    known, arrays = limits or {}, model_arrays(model)
-    numbers = np.array([state.number for state in faces], np.int64)
-    which = rows_of(arrays.first_of_face, numbers)
-    coedges = np.diff(arrays.first_of_loop)[rows_of(arrays.first_loop_of_face, numbers)]
-    loops = np.diff(arrays.first_loop_of_face)[numbers]
-    boundaries = face_boundaries(
-        *_nodes(model, which, nodes), *_uses(model, which, nodes),
-        coedges.astype(np.int32), loops.astype(np.int32),
-    )  # fmt: skip
+    known, numbers = limits or {}, np.array([state.number for state in faces], np.int64)
+    boundaries = model_arrays(model).coedge_table.boundaries(numbers, nodes.first, *nodes.rows)
     return [
         FaceJob(
             state.face.surface, boundary, state.sizing, known.get(state.number), optimise,
@@ -119,43 +111,3 @@ def face_jobs(
         )
         for state, boundary in zip(faces, boundaries)
     ]  # fmt: skip
-
-
-def _nodes(
-    model: CadModel, which: np.ndarray, nodes: CutEdges
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """uv, numbers, points and sizes of the nodes of some coedges, in the direction of the edges;
-    of an edge that is a vertex, both ends. And where the rows of each coedge begin."""
-    arrays = model_arrays(model)
-    edges = arrays.coedge_edge[which]
-    first, rows = nodes.first, nodes.rows
-    vertices = np.unique(edges[first[edges + 1] == first[edges]]).tolist()
-    if vertices:  # behind the others
-        place, count = first[:-1].copy(), np.diff(first)
-        place[vertices] = first[-1] + 2 * np.arange(len(vertices))
-        count[vertices] = 2
-        more = [_point_nodes(model, arrays.vertex, edge) for edge in vertices]
-        rows = EdgeNodes(*(np.concatenate(part) for part in zip(rows, *more)))
-    else:
-        place, count = first[:-1], np.diff(first)
-    own = offsets(count[edges])
-    at = np.repeat(place[edges] - own[:-1], count[edges]) + np.arange(own[-1])
-    uv = np.ascontiguousarray(arrays.pcurves.points(which, own, rows.t[at])[:, :2])
-    return uv, rows.numbers[at], rows.points[at], rows.sizes[at], own
-
-
-def _uses(
-    model: CadModel, which: np.ndarray, nodes: CutEdges
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of some coedges: are they reversed, are they one point, the tolerance of their edges."""
-    arrays = model_arrays(model)
-    edges = arrays.coedge_edge[which]
-    is_point = (nodes.first[edges + 1] == nodes.first[edges]).view(np.uint8)
-    return arrays.coedge_reversed[which].view(np.uint8), is_point, arrays.tolerance[edges]
-
-
-def _point_nodes(model: CadModel, vertex: np.ndarray, edge: int) -> EdgeNodes:
-    """Both ends of an edge that is one point in space."""
-    number = int(vertex[model.edges[edge].start])
-    points = np.tile(model.vertices[number].point, (2, 1))
-    return EdgeNodes(np.array([0.0, 1.0]), points, np.full(2, number, np.int64), np.full(2, np.inf))

@@ -5,7 +5,6 @@ each point of known size the sizes grow with the distance. See src/fields/source
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -124,30 +123,6 @@ def source_background(
 def speeds_of(surface: Surface) -> tuple[float, float]:
     """|r_u| and |r_v| of a plane or a cylinder."""
     return (surface.radius if isinstance(surface, Cylinder) else 1.0), 1.0
-
-
-def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
-    """What all rules allow on a plane or a cylinder over a box of its parameters."""
-    radius = surface.radius if isinstance(surface, Cylinder) else None
-    _, exponent = math.frexp(_extent(surface, domain))
-    found = largest_within(sizing, radius, 2.0 ** (exponent + 1))  # the diagonal is no longer
-    if found is not None:
-        return found
-    return _allowed(SizeRules.of(sizing, _diagonal(surface, sizing, domain)), radius)
-
-
-def largest_within(
-    sizing: Sizing, radius: float | None, reach: float, on_lattice: bool = False,
-    rules_of: Callable[[Sizing, float], SizeRules] = SizeRules.of,
-) -> float | None:  # fmt: skip
-    """The same where it does not depend on the diagonal, for any up to ``reach``: no size falls
-    as the diagonal grows. on_lattice: for triangles that form one. rules_of: sizes and a
-    diagonal."""
-    each = [rules_of(sizing, diagonal) for diagonal in (0.0, reach)]
-    if on_lattice:
-        each = [rules.on_lattice() or rules for rules in each]
-    low, high = (_allowed(rules, radius) for rules in each)
-    return low if 0.0 < low == high else None
 
 
 def has_room_for_lattice(surface: Surface, domain: Domain, size: float) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from surfmesh.cad.model.is_cad_model import is_cad_model
 from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.distance_size import default_options
@@ -72,7 +73,7 @@ def sizes_for(model: Surface | CadModel, sizing: Sizes) -> Sizes:
 
     Raises ``SizingError`` for an unknown option and for numbers that contradict.
     """
-    if isinstance(model, Surface):
+    if not is_cad_model(model):
         return _one_sizing(model, sizing)
     if isinstance(sizing, Mapping) and not _by_selection(sizing):
         return Sizing.of(sizing)

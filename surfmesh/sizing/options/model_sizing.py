@@ -69,6 +69,8 @@ class ModelSizing:
 
     def sets(self, count: int) -> list[tuple[Sizing, np.ndarray]]:
         """Each set of sizes that some of ``count`` faces have, and the numbers of these, rising."""
+        if not self.faces:
+            return [(self.base, np.arange(count))] if count else []
         others: dict[int, tuple[Sizing, list[int]]] = {}
         of_base = np.ones(count, bool)
         for number, own in sorted(self.faces.items(), key=lambda item: item[0]):

@@ -52,12 +52,10 @@ class SizeRules:
     """With the default chord where nothing else was asked for."""
     by_curvature: tuple[CurvatureRule, ...]
     by_place: tuple[PlaceRule, ...]
-    bounds: tuple[Bound, ...]
-    """Stated ones and defaults; ``clamp`` says what follows from them and from a ``size``."""
+    allowed: core_sizing.SizeBounds
+    """What follows from the bounds and from a ``size``."""
     clamp: tuple[float, float]
     """The smallest and the largest size, model units; the largest may be infinite."""
-    longest: float
-    """The largest along the longer axis of an anisotropic metric."""
 
     @classmethod
     def of(cls, sizing: Sizing, diagonal: float) -> "SizeRules":
@@ -65,11 +63,20 @@ class SizeRules:
         sizing = with_default_chord(sizing, diagonal)
         rules = [rule for kind in RULES for rule in kind.asked_for(sizing, diagonal)]
         allowed = core_sizing.size_bounds(core_bounds(sizing), diagonal)
-        bounds = (*stated_bounds(sizing), *default_bounds(sizing, allowed))
         by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
         by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
         clamp = allowed.smallest, allowed.largest
-        return cls(sizing, by_curvature, by_place, bounds, clamp, allowed.longest)
+        return cls(sizing, by_curvature, by_place, allowed, clamp)
+
+    @property
+    def bounds(self) -> tuple[Bound, ...]:
+        """Stated ones and defaults."""
+        return *stated_bounds(self.sizing), *default_bounds(self.sizing, self.allowed)
+
+    @property
+    def longest(self) -> float:
+        """The largest along the longer axis of an anisotropic metric."""
+        return self.allowed.longest
 
     def on_lattice(self) -> "SizeRules | None":
         """For triangles that form a lattice along principal directions; None where there is none.
@@ -119,7 +126,8 @@ class SizeRules:
     def from_curvature(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """Size (n,) by the curvature alone, within the bounds."""
         sizes = [size for _, size in self.at_curvature(k1, k2)]
-        return np.clip(np.minimum.reduce(sizes), *self.clamp)
+        least = sizes[0] if len(sizes) == 1 else np.minimum.reduce(sizes)
+        return np.minimum(np.maximum(least, self.clamp[0]), self.clamp[1])
 
     def from_place(self, points: np.ndarray) -> np.ndarray:
         """Size (n,) by the place alone, not within the bounds; infinite for none."""

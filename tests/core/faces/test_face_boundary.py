@@ -8,10 +8,10 @@ import pytest
 from surfmesh._core import faces as core
 from surfmesh._core.faces import BoundaryBuilder, FaceBoundary, FaceEnd, FacePolygons
 from surfmesh._core.surfaces import cylinder, plane
-from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
-from surfmesh.sizing.field.boundary_field import boundary_field, largest_size
+from surfmesh.geometry.cad_surfaces.elementary import Plane
+from surfmesh.sizing.field.boundary_field import boundary_field
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_rules import SizeRules
+from surfmesh.sizing.rules.size_rules import asked_rules
 
 O, X, Y, Z = np.zeros(3), *np.eye(3)
 SURFACE = plane(((0.0, 1.0), (0.0, 1.0)), O, X, Y)
@@ -49,24 +49,6 @@ def tube(radius, height, count=9):
     return cylinder(domain, O, X, Y, Z, radius), builder.boundary()
 
 
-def test_coedges_are_walked_as_their_loops_run():
-    uv, numbers = (
-        np.array([[2.0, 1.0], [4.0, 1.0], [6.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
-        np.arange(5),
-    )
-    sizes, flags = np.arange(1.0, 6.0), np.zeros(2, np.uint8)
-    first, ones = np.array([0, 3, 5]), np.ones(2, np.int32)
-    one, other = core.face_boundaries(
-        uv, numbers, np.ones((5, 3)), sizes, first, np.array([1, 0], np.uint8), flags,
-        np.array([0.5, 0.25]), ones, ones,
-    )  # fmt: skip
-    assert one.uv.tolist() == [[6.0, 1.0], [4.0, 1.0], [2.0, 1.0]]
-    assert one.numbers.tolist() == [2, 1, 0] and one.sizes.tolist() == [3.0, 2.0, 1.0]
-    assert one.tolerance.tolist() == [0.5] and not one.has_degenerate
-    assert one.box == ((2.0, 6.0), (1.0, 1.0))
-    assert other.numbers.tolist() == [3, 4] and other.tolerance.tolist() == [0.25]
-
-
 def test_it_travels_between_processes():
     one = square()
     other = pickle.loads(pickle.dumps(one))
@@ -90,7 +72,8 @@ def test_what_is_no_boundary_is_refused():
 
 
 def inward(boundary, largest):
-    return core.mesh_inward(core.InwardFace(SURFACE, boundary, (1.0, 1.0), largest, 0.2, PLAIN))
+    asked = asked_rules(Sizing(size=largest))
+    return core.mesh_inward(core.inward_face(SURFACE, boundary, None, asked, 0.2, PLAIN))
 
 
 def test_a_square_is_meshed_between_its_nodes():
@@ -131,22 +114,3 @@ def test_a_seam_near_to_itself_may_be_a_tube(radius, thin):
     """The seam has steps of 1/8: less than 2.5 of them go round a radius of 0.0497."""
     assert core.may_have_tubes(*tube(radius * 0.99, 1.0)) == thin
     assert not core.may_have_tubes(SURFACE, square())
-
-
-@pytest.mark.parametrize(
-    "asked",
-    [dict(size=1.0), dict(chord=0.01), dict(chord=0.01, max_size=0.3), dict(angle=20.0),
-     dict(angle=1.0, size=3.0), dict(max_size=0.2, angle=20.0, min_size=0.1)],
-)  # fmt: skip
-@pytest.mark.parametrize("radius", [1e-3, 1.0, 300.0])
-def test_the_largest_size_is_that_of_the_rules(asked, radius):
-    domain = (0.0, TURN), (0.0, 40.0)
-    surface = Cylinder(domain=domain, origin=O, x=X, y=Y, z=Z, radius=radius)
-    box = np.array([2.0 * radius, 2.0 * radius, 40.0])
-    stated = "max_size" in asked
-    diagonal = np.hypot(TURN * radius, 40.0) if stated else np.linalg.norm(box)
-    rules = SizeRules.of(Sizing(**asked), float(diagonal))
-    wanted = rules.clamp[1]
-    if rules.follows_curvature:
-        wanted = float(rules.from_curvature(np.array([1.0 / radius]), np.zeros(1))[0])
-    assert largest_size(surface, Sizing(**asked), domain) == pytest.approx(wanted, rel=1e-14)

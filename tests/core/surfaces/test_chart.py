@@ -59,3 +59,13 @@ def test_knots_are_joined_by_a_cubic_hermite_spline(seed):
     np.testing.assert_allclose(parameter, spline(x), rtol=1e-9, atol=1e-9)
     expected = spline.derivative()(x)
     np.testing.assert_allclose(rate, expected, rtol=1e-6, atol=1e-9 * np.abs(expected).max())
+
+
+def test_points_along_a_line_are_where_each_is_by_itself():
+    """The coordinate that points share is found once."""
+    x = np.linspace(0.0, 2.0, 9)
+    axis = ChartAxis(2.0, x + 0.1 * x * x, 1.0 + 0.2 * x)
+    chart, t = Chart(axis, axis), np.linspace(0.0, 2.4, 50)
+    for uv in (np.stack([t, np.full(50, 0.7)], 1), np.stack([np.full(50, 0.7), t], 1)):
+        alone = np.concatenate([chart.to_plane(place[None]) for place in uv])
+        assert chart.to_plane(uv).tobytes() == alone.tobytes()

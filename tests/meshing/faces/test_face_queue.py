@@ -17,6 +17,8 @@ from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.face_workers import FaceWorkers
 from surfmesh.meshing.faces.inward_faces import inward_face
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_rules import asked_rules
 
 ARRAYS = ("points", "slots", "triangles", "uv_points", "uv_triangles", "sizes")
 
@@ -114,13 +116,12 @@ def test_what_goes_wrong_where_a_face_goes_on_comes_out(jobs, monkeypatch):
 
 def test_faces_that_are_none_are_refused(jobs):
     pole = next(job for job in jobs if job.boundary.has_degenerate)
-    manner = core.FaceManner(None, None, 0.0)
-    with pytest.raises(ValueError, match="degenerate"):
-        core.InwardFace(pole.surface.core, pole.boundary, (1.0, 1.0), 1.0, 0.2, manner)
+    asked, manner = asked_rules(Sizing(size=1.0)), core.FaceManner(None, None, 0.0)
+    assert core.inward_face(pole.surface.core, pole.boundary, None, asked, 0.2, manner) is None
     flat = next(job for job in jobs if job.surface.kind == "plane")
-    for speeds, largest in (((0.0, 1.0), 1.0), ((1.0, 1.0), float("nan"))):
+    for radius, slope in ((0.0, 0.2), (None, float("nan"))):
         with pytest.raises(ValueError, match="positive"):
-            core.InwardFace(flat.surface.core, flat.boundary, speeds, largest, 0.2, manner)
+            core.inward_face(flat.surface.core, flat.boundary, radius, asked, slope, manner)
     with pytest.raises(TypeError):
         core.FaceQueue([None])
 
