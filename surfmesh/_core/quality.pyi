@@ -16,6 +16,11 @@ def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(s
     Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.
     """
 
+def prepared_surfaces(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list:
+    """
+    The surfaces, with their points and first derivatives to rounding, for many places: a spline is made polynomials where the triangles, those of faces (m,), are many enough.
+    """
+
 def far_corners(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], left_out: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Corners (k,), 3 t + i for corner i of triangle t, farther than limit from r(u, v): of each row of uv that a triangle uses the last, but of those of which left_out (m,) is 1.
@@ -27,7 +32,7 @@ def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dic
     """
     Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing.
 
-    edges (k, 2): half-edges and those that share what is found, or -1; area (m,); in_plane (m,): as ``plane_triangles`` has it.
+    edges (k, 2): the half-edges of each, -1 where there is one; area (m,); in_plane (m,): as ``plane_triangles`` has it.
     """
 
 def plane_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
@@ -257,11 +262,6 @@ class JoinedTriangles:
 
         Rims are edges of one triangle, and the rows edge (k,) with sagitta (k,), -1 for none.
         """
-
-def edges_of_faces(half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
-    """
-    Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those between two faces (m,) of triangles the first, and at the end the second.
-    """
 
 def edge_sagittas(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
