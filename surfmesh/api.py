@@ -22,6 +22,7 @@ from surfmesh.loading import is_domain, mesh_of_file, model_or_surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.given_sizes import Sizes, sizes_by_name, sizes_for, sizes_of_order
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.truth_value import truth_value
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -84,6 +85,8 @@ def mesh(
     ``Cancelled`` when ``progress`` said so.
     """
     _require_threads(jobs)
+    optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
+    simplify = truth_value("simplify", simplify)
     model = model_or_surface(surface)
     asked, order = sizes_of_order(sizes_by_name(sizing, sizes, beside=_OF_MESH), order)
     wanted = sizes_for(model, asked)

@@ -36,6 +36,7 @@ from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.given_sizes import Sizes
+from surfmesh.truth_value import truth_value
 
 
 class PieceSums(NamedTuple):
@@ -110,6 +111,7 @@ def mesh_into_pieces(
     Raises ``MeshingError`` and ``SizingError`` as ``mesh`` does, and where the workers do not see
     the folder; ``FileFormatError`` where it cannot be written. The old mesh is then as it was.
     """
+    optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
     path = Path(path)
     folder = pvtu.folder_of(path)
     for left in FaceStore.all_in(folder):  # by callers that were killed

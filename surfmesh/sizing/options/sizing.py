@@ -12,6 +12,7 @@ from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.size_laws import checked_sizes
 from surfmesh.sizing.options.sources import source_sizes
+from surfmesh.truth_value import truth_value
 
 MOST_STRETCHED = 1e6
 """Largest ratio of two sizes: beyond it areas are round-off."""
@@ -135,6 +136,8 @@ class Sizing:
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
+        for name in ("proof", "fewest", "gap_faces"):
+            object.__setattr__(self, name, truth_value(name, getattr(self, name)))
         if self.size is not None and not callable(self.size):
             object.__setattr__(self, "size", positive("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
@@ -170,15 +173,11 @@ class Sizing:
         """What excludes each other of ``order``, ``proof``, ``fewest`` and ``vertices``."""
         if self.order not in (1, 2):
             raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
-        if not isinstance(self.proof, bool):
-            raise SizingError(f"proof is True or False, not {shown(self.proof)}")
         if self.proof and self.chord is None and self.triangles is None:
             raise SizingError("proof needs a chord: it is the distance that is to be proved")
         if self.vertices not in (ON_SURFACE, BALANCED):
             known = f"{ON_SURFACE!r} or {BALANCED!r}"
             raise SizingError(f"vertices is {known}, not {shown(self.vertices)}")
-        if not isinstance(self.fewest, bool):
-            raise SizingError(f"fewest is True or False, not {shown(self.fewest)}")
         if self.fewest and self.chord is None and self.triangles is None:
             raise SizingError("fewest needs a chord: it is what the triangles are to keep")
         if self.fewest and self.is_curved:

@@ -1,0 +1,51 @@
+"""What the verbs say to options of the wrong kind, and to those that have no effect."""
+
+import numpy as np
+import pytest
+
+import surfmesh as sm
+from surfmesh.errors import CadError, FileFormatError, SizingError
+
+SADDLE = sm.ParametricSurface("u", "v", "u*v", u=(-1, 1), v=(-1, 1), name="saddle")
+NO_TRUTH = (0, 1, None, np.nan, "abc", [True], np.array([True]))
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    return sm.mesh(SADDLE, 0.5)
+
+
+@pytest.mark.parametrize("value", NO_TRUTH, ids=repr)
+@pytest.mark.parametrize("name", ["optimise", "strict", "simplify", "proof", "fewest", "gap_faces"])
+def test_what_is_no_truth_value_is_refused_by_name(name, value):
+    with pytest.raises(SizingError, match=f"^{name} is True or False, not "):
+        sm.mesh(SADDLE, **{name: value})
+
+
+def test_so_it_is_by_the_other_verbs(coarse, tmp_path):
+    with pytest.raises(SizingError, match="second_opinion is True or False, not 'no'"):
+        sm.check(coarse, second_opinion="no")
+    with pytest.raises(SizingError, match="prove is True or False, not 0"):
+        coarse.check(prove=0)
+    with pytest.raises(SizingError, match="lines is True or False, not nan"):
+        sm.Near((0, 0, 0), 0.1, lines=np.nan)
+    with pytest.raises(SizingError, match="circles is True or False, not 'no'"):
+        coarse.plot(tmp_path / "no.png", circles="no")
+    with pytest.raises(FileFormatError, match="ascii is True or False, not 'no'"):
+        coarse.save(tmp_path / "no.stl", ascii="no")
+    with pytest.raises(CadError, match="isolate is True or False, not 0"):
+        sm.load("torus", isolate=0)
+    with pytest.raises(CadError, match="heal is True or False, not 0"):
+        sm.from_cadquery(None, heal=0)
+    with pytest.raises(SizingError, match="optimise is True or False, not 0"):
+        sm.mesh_into_pieces(tmp_path / "no.pvtu", None, None, None, optimise=0)
+
+
+@pytest.mark.parametrize("value", [False, True])
+def test_truth_values_of_numpy_are_pythons(value):
+    given, own = (
+        sm.mesh(SADDLE, chord=0.1, optimise=kind(value), fewest=kind(False))
+        for kind in (np.bool_, bool)
+    )
+    np.testing.assert_array_equal(given.points, own.points)
+    assert type(sm.Sizing(proof=np.True_, chord=0.1).proof) is bool
