@@ -71,8 +71,9 @@ def mesh(
     jobs: how many threads mesh, faces of a CAD model at once or within one; by default as many as
     this process may use processors. The mesh is the same with any number of them.
 
-    executor: meshes faces instead, in other processes or on other machines: any of
-    ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
+    executor: meshes the faces of a CAD model instead, in other processes or on other machines: any
+    of ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``. A formula and a
+    planar domain are one face, which is meshed here all the same.
 
     order: 2 puts nodes amid the edges too, on the true curves and surfaces
     (``mesh.mid_points``); ``chord`` is then that of the curved triangles, of which far fewer are
@@ -87,6 +88,12 @@ def mesh(
     _require_threads(jobs)
     optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
     simplify = truth_value("simplify", simplify)
+    if progress is not None and not callable(progress):
+        raise SizingError(f"progress is {shown(progress)}, no function of (stage, fraction done)")
+    if executor is not None:
+        from surfmesh.meshing.executors import require_executor
+
+        require_executor(executor)
     model = model_or_surface(surface)
     asked, order = sizes_of_order(sizes_by_name(sizing, sizes, beside=_OF_MESH), order)
     wanted = sizes_for(model, asked)

@@ -9,7 +9,7 @@ whole mesh would give them, so that the same mesh is read back.
 """
 
 import hashlib
-from concurrent.futures import BrokenExecutor, Executor
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,6 +24,7 @@ from surfmesh.io import pvtu
 from surfmesh.io.leftovers import held, is_left
 from surfmesh.io.vtk_xml import METRIC, content_of
 from surfmesh.io.xml_writing import CELL_IDS, POINT_IDS, Content
+from surfmesh.meshing.executors import executor_faults, require_executor
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_state import FaceState
 from surfmesh.meshing.faces.face_workers import FaceWorkers
@@ -112,6 +113,7 @@ def mesh_into_pieces(
     the folder; ``FileFormatError`` where it cannot be written. The old mesh is then as it was.
     """
     optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
+    require_executor(executor)
     path = Path(path)
     folder = pvtu.folder_of(path)
     for left in FaceStore.all_in(folder):  # by callers that were killed
@@ -163,9 +165,8 @@ def _by_executor(
 ) -> list[tuple[PieceSums, Content]]:
     jobs = [executor.submit(_written, order, str(at)) for order, at in zip(orders, places)]
     try:
-        return [job.result() for job in jobs]
-    except BrokenExecutor as error:
-        raise MeshingError(f"the workers that write the pieces are lost: {error}") from error
+        with executor_faults("write the pieces"):
+            return [job.result() for job in jobs]
     finally:
         for job in jobs:
             job.cancel()

@@ -1,5 +1,8 @@
 """What the verbs say to options of the wrong kind, and to those that have no effect."""
 
+from concurrent.futures import ThreadPoolExecutor
+
+import cadquery as cq
 import numpy as np
 import pytest
 
@@ -49,3 +52,19 @@ def test_truth_values_of_numpy_are_pythons(value):
     )
     np.testing.assert_array_equal(given.points, own.points)
     assert type(sm.Sizing(proof=np.True_, chord=0.1).proof) is bool
+
+
+@pytest.mark.parametrize("given", ["nonsense", 2, ThreadPoolExecutor], ids=str)
+def test_what_is_no_executor_is_refused_whatever_is_meshed(given, tmp_path):
+    said = "^executor is .*: one of concurrent.futures is needed"
+    domain = sm.PlanarDomain(outer=[(0, 0), (4, 0), (4, 3)])
+    for subject in (SADDLE, domain, cq.Workplane().box(1, 1, 1)):
+        with pytest.raises(SizingError, match=said):
+            sm.mesh(subject, 0.5, executor=given)
+    with pytest.raises(SizingError, match=said):
+        sm.mesh_into_pieces(tmp_path / "no.pvtu", None, None, given)
+
+
+def test_progress_is_a_function():
+    with pytest.raises(SizingError, match="progress is 3, no function of"):
+        sm.mesh(SADDLE, 0.5, progress=3)
