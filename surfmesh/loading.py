@@ -73,6 +73,11 @@ def load(
             return reading.model()
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
+    if not isolate or time_limit is not None or memory_limit is not None:
+        raise CadError(
+            "time_limit, memory_limit and isolate are of reading CAD files, and "
+            f"{place.name} is none"
+        )
     if units is not None:
         raise CadError(
             f"units are those of a CAD file; {place.name} is none, its lengths have none"
