@@ -20,7 +20,13 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.loading import is_domain, mesh_of_file, model_or_surface
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.given_sizes import Sizes, sizes_by_name, sizes_for, sizes_of_order
+from surfmesh.sizing.options.given_sizes import (
+    Sizes,
+    idle_options,
+    sizes_by_name,
+    sizes_for,
+    sizes_of_order,
+)
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.truth_value import truth_value
 
@@ -116,7 +122,7 @@ def mesh(
 
         made = of_second_order(made)
     return_free_memory(len(made.triangles))
-    return _logged(made, model)
+    return _logged(made.with_warnings(*idle_options(wanted, optimise)), model)
 
 
 _OF_MESH = ("optimise", "progress", "strict", "simplify", "jobs", "executor")

@@ -8,6 +8,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import CadError, FileFormatError, SizingError
+from surfmesh.sizing.options.given_sizes import idle_options
 
 SADDLE = sm.ParametricSurface("u", "v", "u*v", u=(-1, 1), v=(-1, 1), name="saddle")
 NO_TRUTH = (0, 1, None, np.nan, "abc", [True], np.array([True]))
@@ -68,3 +69,28 @@ def test_what_is_no_executor_is_refused_whatever_is_meshed(given, tmp_path):
 def test_progress_is_a_function():
     with pytest.raises(SizingError, match="progress is 3, no function of"):
         sm.mesh(SADDLE, 0.5, progress=3)
+
+
+BOX = cq.Workplane().box(1, 1, 1)
+
+
+@pytest.mark.parametrize("subject", [SADDLE, BOX], ids=["formula", "model"])
+def test_options_without_effect_are_said_to_have_none(subject):
+    for options, said in (
+        (dict(chord=0.1, fewest=True, optimise=False), "fewest has no effect with optimise=False"),
+        (dict(size=0.5, anisotropy=5), "anisotropy 5 has no effect with size alone"),
+    ):
+        mesh = sm.mesh(subject, **options)
+        assert [warning.startswith(said) for warning in mesh.warnings] == [True]
+        assert mesh.report.clean or not options.get("optimise", True)
+
+
+def test_options_with_effect_are_not():
+    for options in (
+        dict(chord=0.1, fewest=True), dict(chord=0.1, size=0.5, anisotropy=5),
+        dict(anisotropy=5), dict(triangles=200, anisotropy=5), dict(size=0.5),
+    ):  # fmt: skip
+        assert sm.mesh(SADDLE, **options).warnings == ()
+    by_name = {"*": sm.Sizing(size=0.5, anisotropy=5), "": sm.Sizing(chord=0.1)}
+    assert idle_options(by_name, True) == []
+    assert len(idle_options({"*": sm.Sizing(size=0.5, anisotropy=5), "faces": 0.5}, True)) == 1

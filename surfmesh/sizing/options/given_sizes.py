@@ -60,6 +60,22 @@ def sizes_of_order(sizing: Sizes, order: int | None) -> tuple[Sizes, int]:
     return {**sizing, "*": wanted} if isinstance(sizing, Mapping) else wanted, order
 
 
+def idle_options(sizing: Sizes, optimise: bool) -> list[str]:
+    """A sentence for each option that has no effect on any part beside what else is asked for."""
+    by_name = isinstance(sizing, Mapping) and _by_selection(sizing)
+    parts = [Sizing.of(one) for one in (sizing.values() if by_name else [sizing])]
+    found = []
+    if not optimise and any(part.fewest for part in parts):
+        found.append("fewest has no effect with optimise=False, as it moves vertices")
+    stretched = [part for part in parts if part.anisotropy > 1.0]
+    if stretched and all(part.is_of_size_alone for part in parts):
+        found.append(
+            f"anisotropy {stretched[0].anisotropy:g} has no effect with size alone, which holds in "
+            "every direction: give a chord or an angle, with max_size"
+        )
+    return found
+
+
 def _stated(sizing: Any, name: str) -> Any:
     """An option of sizes that may be given by name; None where it is not there."""
     if isinstance(sizing, Mapping):

@@ -219,6 +219,12 @@ class Sizing:
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
 
     @property
+    def is_of_size_alone(self) -> bool:
+        """Does nothing but ``size`` and sources say how fine the mesh is?"""
+        others = (self.chord, self.angle, self.volume, self.triangles)
+        return self.size is not None and all(other is None for other in others)
+
+    @property
     def uses_evenly(self) -> bool:
         """Do triangles share ``chord`` evenly? Not where they keep an ``angle`` too, nor stretched
         ones that leave the surface: both would be undone."""
