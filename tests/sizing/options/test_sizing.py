@@ -68,3 +68,11 @@ def test_options_cannot_be_changed():
     with pytest.raises(AttributeError):
         sizing.chord = 0.2
     assert sizing.replaced(chord=0.2).chord == 0.2 and sizing.chord == 0.1
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan])
+def test_a_law_that_gives_no_size_is_told_where(bad):
+    points = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]])
+    law = Sizing(size=lambda points: np.where(points[:, 0] > 3.0, bad, 1.0))
+    with pytest.raises(SizingError, match=rf"it gave {bad:g} at \(4, 5, 6\)$"):
+        law.law_sizes(points)
