@@ -82,8 +82,9 @@ def mesh(
     planar domain are one face, which is meshed here all the same.
 
     order: 2 puts nodes amid the edges too, on the true curves and surfaces
-    (``mesh.mid_points``); ``chord`` is then that of the curved triangles, of which far fewer are
-    needed. None: ``Sizing.order``, 1 by default.
+    (``mesh.mid_points``); a ``chord`` that is given is then that of the curved triangles, of which far
+    fewer are needed; without one the triangles are those of order 1, as many. None:
+    ``Sizing.order``, 1 by default.
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.

@@ -108,7 +108,8 @@ class Sizing:
     order: int = 1
     """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
     ``chord`` is the distance of the curved triangles, which are far larger, unless ``anisotropy``,
-    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then."""
+    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then, as
+    they are where no ``chord`` is given."""
 
     vertices: str = ON_SURFACE
     """Where they lie: "on_surface", or "balanced": they move along the normals until the surface
