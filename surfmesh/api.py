@@ -82,8 +82,8 @@ def mesh(
     planar domain are one face, which is meshed here all the same.
 
     order: 2 puts nodes amid the edges too, on the true curves and surfaces
-    (``mesh.mid_points``); a ``chord`` that is given is then that of the curved triangles, of which far
-    fewer are needed; without one the triangles are those of order 1, as many. None:
+    (``mesh.mid_points``); a ``chord`` that is given is then that of the curved triangles, of which
+    far fewer are needed. Without one the triangles are those of order 1, as many. None:
     ``Sizing.order``, 1 by default.
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
@@ -92,6 +92,8 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
+    from surfmesh.meshing.progress import tell_end
+
     _require_threads(jobs)
     optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
     simplify = truth_value("simplify", simplify)
@@ -122,6 +124,7 @@ def mesh(
         from surfmesh.meshing.finishing.second_order import of_second_order
 
         made = of_second_order(made)
+    tell_end(progress)
     return_free_memory(len(made.triangles))
     return _logged(made.with_warnings(*idle_options(wanted, optimise)), model)
 

@@ -86,7 +86,7 @@ class PartitionedMesh:
         used = f", {self.chord_use:.2f} of the chord" if self.chord_use else ""
         lines = [
             f"{self.path.name}: {self.nodes:,} nodes, {self.triangles:,} triangles in "
-            f"{self.pieces} pieces",
+            f"{self.pieces} {'piece' if self.pieces == 1 else 'pieces'}",
             f"  area       {self.area:.10g} {self.unit}^2 (exact {self.area_of_model:.10g})",
             f"  shape      alpha mean {self.alpha_mean:.4f}, smallest {self.alpha_min:.4f}",
             f"  deviation  largest {self.deviation:.4g}{used}",
@@ -141,6 +141,8 @@ def mesh_into_pieces(
     finally:
         store.remove()
         pvtu.forget_empty(folder)
+    if progress is not None:
+        progress("write", 1.0)
     triangles, area = sum(s.triangles for s in sums), sum(s.area for s in sums)
     return PartitionedMesh(
         path=path,

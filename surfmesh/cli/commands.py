@@ -86,7 +86,7 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
             surface,
             sizing,
             optimise=not options.no_optimise,
-            progress=progress,
+            progress=progress.up_to(0.92),
             strict=not options.no_strict,
             simplify=options.simplify,
             jobs=options.jobs,

@@ -233,7 +233,7 @@ def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
 
     from surfmesh import api
 
-    return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
+    return api.mesh(surface, sizing, progress=progress.up_to(0.9), strict=not options.no_strict)
 
 
 def on_surface(found: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import wraps
+from numbers import Real
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,7 +13,7 @@ from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.size_laws import checked_sizes
 from surfmesh.sizing.options.sources import source_sizes
-from surfmesh.truth_value import truth_value
+from surfmesh.truth_value import is_truth_value, truth_value
 
 MOST_STRETCHED = 1e6
 """Largest ratio of two sizes: beyond it areas are round-off."""
@@ -172,8 +173,7 @@ class Sizing:
 
     def _check_choices(self) -> None:
         """What excludes each other of ``order``, ``proof``, ``fewest`` and ``vertices``."""
-        if self.order not in (1, 2):
-            raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
+        object.__setattr__(self, "order", checked_order(self.order))
         if self.proof and self.chord is None and self.triangles is None:
             raise SizingError("proof needs a chord: it is the distance that is to be proved")
         if self.vertices not in (ON_SURFACE, BALANCED):
@@ -212,7 +212,8 @@ class Sizing:
             if getattr(self, name) is not None:
                 raise SizingError(f"triangles and {name} both say how fine the mesh is: give one")
         if self.limit < asked:
-            raise SizingError(f"triangles {int(asked):,} is above limit {self.limit:,}")
+            count = f"{int(asked):,}" if asked < 1e15 else f"{asked:g}"  # no 300 digits
+            raise SizingError(f"triangles {count} is above limit {self.limit:,}")
 
     @property
     def is_anisotropic(self) -> bool:
@@ -306,6 +307,14 @@ class Sizing:
         if isinstance(given, (int, float)) or callable(given):
             return cls(size=given)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")
+
+
+def checked_order(order: Any) -> int:
+    """1 or 2 as an int. Raises ``SizingError`` for anything else."""
+    is_number = isinstance(order, Real) and not is_truth_value(order)
+    if not is_number or order not in (1, 2):
+        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    return int(order)
 
 
 def require_known(given: Mapping[Any, Any], beside: Sequence[str] = ()) -> None:
