@@ -21,8 +21,15 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.loading import is_domain, mesh_of_file, model_or_surface
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.given_sizes import Sizes, sizes_by_name, sizes_for, sizes_of_order
+from surfmesh.sizing.options.given_sizes import (
+    Sizes,
+    idle_options,
+    sizes_by_name,
+    sizes_for,
+    sizes_of_order,
+)
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.truth_value import truth_value
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -71,12 +78,14 @@ def mesh(
     jobs: how many threads mesh, faces of a CAD model at once or within one; by default as many as
     this process may use processors. The mesh is the same with any number of them.
 
-    executor: meshes faces instead, in other processes or on other machines: any of
-    ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
+    executor: meshes the faces of a CAD model instead, in other processes or on other machines: any
+    of ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``. A formula and a
+    planar domain are one face, which is meshed here all the same.
 
     order: 2 puts nodes amid the edges too, on the true curves and surfaces
-    (``mesh.mid_points``); ``chord`` is then that of the curved triangles, of which far fewer are
-    needed. None: ``Sizing.order``, 1 by default.
+    (``mesh.mid_points``); a ``chord`` that is given is then that of the curved triangles, of which
+    far fewer are needed. Without one the triangles are those of order 1, as many. None:
+    ``Sizing.order``, 1 by default.
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.
@@ -84,7 +93,17 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
+    from surfmesh.meshing.progress import tell_end
+
     _require_threads(jobs)
+    optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
+    simplify = truth_value("simplify", simplify)
+    if progress is not None and not callable(progress):
+        raise SizingError(f"progress is {shown(progress)}, no function of (stage, fraction done)")
+    if executor is not None:
+        from surfmesh.meshing.executors import require_executor
+
+        require_executor(executor)
     model = model_or_surface(surface)
     asked, order = sizes_of_order(sizes_by_name(sizing, sizes, beside=_OF_MESH), order)
     wanted = sizes_for(model, asked)
@@ -106,8 +125,9 @@ def mesh(
         from surfmesh.meshing.finishing.second_order import of_second_order
 
         made = of_second_order(made)
+    tell_end(progress)
     return_free_memory(len(made.triangles))
-    return _logged(made, model)
+    return _logged(made.with_warnings(*idle_options(wanted, optimise)), model)
 
 
 _OF_MESH = ("optimise", "progress", "strict", "simplify", "jobs", "executor")

@@ -21,6 +21,7 @@ from surfmesh.geometry.files.surface_file import OF_SURFACES, gallery, load_surf
 from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.truth_value import truth_value
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadModel
@@ -62,7 +63,7 @@ def load(
         place = Path(path)
     except TypeError:
         raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
-    joins = bool(Joining.of(imprint, sew))
+    isolate, joins = truth_value("isolate", isolate, CadError), bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
         with begun_reading(
             place, units=units, time_limit=time_limit, memory_limit=memory_limit, imprint=imprint,
@@ -73,6 +74,11 @@ def load(
             return reading.model()
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
+    if not isolate or time_limit is not None or memory_limit is not None:
+        raise CadError(
+            "time_limit, memory_limit and isolate are of reading CAD files, and "
+            f"{place.name} is none"
+        )
     if units is not None:
         raise CadError(
             f"units are those of a CAD file; {place.name} is none, its lengths have none"

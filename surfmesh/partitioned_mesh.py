@@ -9,7 +9,7 @@ whole mesh would give them, so that the same mesh is read back.
 """
 
 import hashlib
-from concurrent.futures import BrokenExecutor, Executor
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,6 +24,7 @@ from surfmesh.io import pvtu
 from surfmesh.io.leftovers import held, is_left
 from surfmesh.io.vtk_xml import METRIC, content_of
 from surfmesh.io.xml_writing import CELL_IDS, POINT_IDS, Content
+from surfmesh.meshing.executors import executor_faults, require_executor
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_state import FaceState
 from surfmesh.meshing.faces.face_workers import FaceWorkers
@@ -36,6 +37,7 @@ from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.given_sizes import Sizes
+from surfmesh.truth_value import truth_value
 
 
 class PieceSums(NamedTuple):
@@ -84,7 +86,7 @@ class PartitionedMesh:
         used = f", {self.chord_use:.2f} of the chord" if self.chord_use else ""
         lines = [
             f"{self.path.name}: {self.nodes:,} nodes, {self.triangles:,} triangles in "
-            f"{self.pieces} pieces",
+            f"{self.pieces} {'piece' if self.pieces == 1 else 'pieces'}",
             f"  area       {self.area:.10g} {self.unit}^2 (exact {self.area_of_model:.10g})",
             f"  shape      alpha mean {self.alpha_mean:.4f}, smallest {self.alpha_min:.4f}",
             f"  deviation  largest {self.deviation:.4g}{used}",
@@ -110,6 +112,8 @@ def mesh_into_pieces(
     Raises ``MeshingError`` and ``SizingError`` as ``mesh`` does, and where the workers do not see
     the folder; ``FileFormatError`` where it cannot be written. The old mesh is then as it was.
     """
+    optimise, strict = truth_value("optimise", optimise), truth_value("strict", strict)
+    require_executor(executor)
     path = Path(path)
     folder = pvtu.folder_of(path)
     for left in FaceStore.all_in(folder):  # by callers that were killed
@@ -137,6 +141,8 @@ def mesh_into_pieces(
     finally:
         store.remove()
         pvtu.forget_empty(folder)
+    if progress is not None:
+        progress("write", 1.0)
     triangles, area = sum(s.triangles for s in sums), sum(s.area for s in sums)
     return PartitionedMesh(
         path=path,
@@ -161,9 +167,8 @@ def _by_executor(
 ) -> list[tuple[PieceSums, Content]]:
     jobs = [executor.submit(_written, order, str(at)) for order, at in zip(orders, places)]
     try:
-        return [job.result() for job in jobs]
-    except BrokenExecutor as error:
-        raise MeshingError(f"the workers that write the pieces are lost: {error}") from error
+        with executor_faults("write the pieces"):
+            return [job.result() for job in jobs]
     finally:
         for job in jobs:
             job.cancel()

@@ -176,7 +176,8 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         "--order",
         type=whole_number(1, 2),
         metavar="1|2",
-        help="2: nodes amid the edges too; --chord is then that of the curved triangles",
+        help="2: nodes amid the edges too; --chord is then that of the curved triangles; "
+        "without it there are as many as of order 1",
     )
     mesh.add_argument(
         "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"

@@ -15,12 +15,13 @@ from surfmesh.cli.inputs import (
     asked_keep,
     asked_sizing,
     called,
-    named_surface,
     on_surface,
+    refuse_options_of_faces,
     refuse_options_of_meshing,
     shown_mesh,
     surface_and_sizing,
     surface_begun,
+    surfaces_that_meet,
 )
 from surfmesh.cli.outputs import (
     in_pieces,
@@ -66,7 +67,7 @@ def intersect(options: Namespace) -> bool:
 
     from surfmesh import api
 
-    surfaces = [named_surface(name, options) for name in options.inputs]
+    surfaces = surfaces_that_meet(options)
     model = api.intersect(surfaces, asked_keep(options.keep), coincident=options.coincident)
     return _made(model, sizing, options)
 
@@ -77,6 +78,7 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
     from surfmesh.io import save
     from surfmesh.quality import check as checked
 
+    refuse_options_of_faces(surface, options)
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         if executor is not None and in_pieces(surface, options):
             return _mesh_in_pieces(surface, sizing, options, executor, progress)
@@ -84,7 +86,7 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
             surface,
             sizing,
             optimise=not options.no_optimise,
-            progress=progress,
+            progress=progress.up_to(0.92),
             strict=not options.no_strict,
             simplify=options.simplify,
             jobs=options.jobs,

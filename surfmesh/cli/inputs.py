@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -70,6 +70,7 @@ def surface_begun(
     end of the ``with`` statement ends it.
     """
     path = Path((options.input if name is None else name) or "")
+    require_program([path], options)
     if path.suffix.lower() in SUFFIXES and path.is_file() and not _formulas(options):
         with begun_reading(path, **options.reading) as reading:
 
@@ -115,6 +116,7 @@ def surface_of(options: Namespace) -> Surface | CadModel:
     missing = [f"--{name}" for name, value in formulas.items() if value is None]
     if missing:
         raise SurfaceError(f"a surface by formulas needs {', '.join(missing)} too")
+    _refuse_given(_of_reading(options), "formulas are not read from a file")
     parameters = {}
     for entry in options.param:
         name, sign, value = entry.partition("=")
@@ -151,6 +153,19 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery{hint}")
 
 
+def surfaces_that_meet(options: Namespace) -> list[Surface | CadModel]:
+    """The inputs of ``intersect``; limits of reading hold for those of them that are CAD files."""
+    paths = [Path(name) for name in options.inputs]
+    require_program(paths, options)
+    is_cad = [path.suffix.lower() in SUFFIXES for path in paths]
+    without = {"time_limit": None, "memory_limit": None, "isolate": True}
+    others = Namespace(**{**vars(options), "reading": options.reading | without})
+    return [
+        named_surface(name, options if cad or not any(is_cad) else others)
+        for name, cad in zip(options.inputs, is_cad)
+    ]
+
+
 def _of_program(path: Path, options: Namespace) -> CadModel:
     """The model that a Python program makes, where the user has allowed to run it."""
     if not options.run_python:
@@ -161,6 +176,9 @@ def _of_program(path: Path, options: Namespace) -> CadModel:
     from surfmesh.plugins.script_models import model_of_script
 
     reading = options.reading
+    limits = ("time_limit", "memory_limit", "no_isolate")
+    given = {name: value for name, value in _of_reading(options).items() if name in limits}
+    _refuse_given(given, "a program runs in this process")
     return model_of_script(
         path, units=reading["units"], imprint=reading["imprint"], sew=reading["sew"]
     )
@@ -168,9 +186,36 @@ def _of_program(path: Path, options: Namespace) -> CadModel:
 
 def refuse_options_of_meshing(options: Namespace, reason: str) -> None:
     """Raise SurfaceError for an option that says how a model is read or meshed, where none is."""
-    given = {**getattr(options, "sizing", {}), **options.reading, "run_python": options.run_python}
-    given |= {name: getattr(options, name, None) for name in ("sizes", "no_strict", "prove")}
+    given = getattr(options, "sizing", {}) | _of_reading(options)
+    given |= {
+        name: getattr(options, name, None) for name in ("run_python", "sizes", "no_strict", "prove")
+    }
+    _refuse_given(given, reason)
+
+
+def require_program(inputs: Sequence[Path], options: Namespace) -> None:
+    """Raise SurfaceError where programs are allowed to run and none is named."""
+    if not any(path.suffix.lower() == ".py" for path in inputs):
+        _refuse_given({"run_python": options.run_python}, "no program (.py) is named")
+
+
+def refuse_options_of_faces(surface: Surface | CadModel, options: Namespace) -> None:
+    """Raise SurfaceError for an option of the faces of a CAD model, where there is but one."""
+    from surfmesh.geometry.surface import Surface
+
+    if isinstance(surface, Surface):
+        given = {name: getattr(options, name, None) for name in ("no_strict", "scheduler")}
+        _refuse_given(given, "it is for the faces of CAD models")
+
+
+def _of_reading(options: Namespace) -> dict[str, Any]:
+    """What was given of the options of ``load``, by the names in which they are typed."""
+    given = dict(options.reading)
     given["no_isolate"] = not given.pop("isolate")
+    return given
+
+
+def _refuse_given(given: Mapping[str, Any], reason: str) -> None:
     for name, value in given.items():
         if value not in (None, False):
             raise SurfaceError(f"--{name.replace('_', '-')} does nothing here: {reason}")
@@ -184,10 +229,11 @@ def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
         refuse_options_of_meshing(options, f"{options.input} is a mesh already")
         return read(options.input)
     surface, sizing = surface_and_sizing(options)
+    refuse_options_of_faces(surface, options)
 
     from surfmesh import api
 
-    return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
+    return api.mesh(surface, sizing, progress=progress.up_to(0.9), strict=not options.no_strict)
 
 
 def on_surface(found: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:

@@ -1,6 +1,7 @@
 """What is said while the user waits, on standard error."""
 
 import sys
+from collections.abc import Callable
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -34,6 +35,10 @@ class ProgressBar:
                 return
             self._bar = self._begun()
         self._bar.update(self._bar.task_ids[0], description=stage, completed=fraction)
+
+    def up_to(self, last: float) -> Callable[[str, float], None]:
+        """The callback of the first part of the work, which ends at this fraction of the whole."""
+        return lambda stage, fraction: self(stage, last * fraction)
 
     @staticmethod
     def _begun() -> "Progress":

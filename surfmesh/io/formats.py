@@ -11,6 +11,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing, require_place
 from surfmesh.io.found_mesh import usable
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.truth_value import truth_value
 
 # Each module has write(mesh, path) and read(path); it is imported when it is needed.
 FORMATS = {
@@ -77,6 +78,7 @@ def save(
             f"{path}: {path.suffix} holds the corners alone; for order 2 use {others}",
             stacklevel=2,
         )
+    ascii = truth_value("ascii", ascii, FileFormatError)
     if ascii and not hasattr(module, "write_ascii"):
         raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
     chosen = _chosen(path, solids=solids, target=target)

@@ -11,6 +11,7 @@ finishing: second order, vertices off the surface, short edges collapsed.
 estimate: how many triangles there will be.
 triangle_count: sizes for a wanted number of triangles.
 explain: which rule decides the size at a point.
+executors: those that callers give: what is none, and what goes wrong with one that is.
 processors: how many there are, and how many threads a call of the core may use.
 progress: stages, their seconds, and a caller who may stop the work.
 """

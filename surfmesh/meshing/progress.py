@@ -12,9 +12,9 @@ from surfmesh.errors import Cancelled
 Progress = Callable[[str, float], object]
 """Called with the name of the stage and the fraction of the work done, 0 to 1, never falling.
 
-Called when a stage starts, before each pass of the optimiser and when faces of a CAD model are
-done, in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what
-it raises comes through.
+Called when a stage starts, before each pass of the optimiser, when faces of a CAD model are done
+and, with 1, when all is, in the thread that meshes. Returning False (not None) stops the work with
+``Cancelled``; what it raises comes through.
 """
 
 _STAGES = {
@@ -52,6 +52,22 @@ class OneProgress:
     def __call__(self, stage: str, done: float) -> object:
         self._done = max(self._done, done)
         return self._progress(stage, self._done)
+
+
+def tell(progress: Progress | None, stage: str, done: float) -> None:
+    """Say where the work is. Raises ``Cancelled`` when it is to stop."""
+    if progress is None:
+        return
+    answer = progress(stage, done)
+    if isinstance(answer, (bool, np.bool_)) and not answer:
+        raise Cancelled(
+            f"stopped in the stage {stage!r}, as the progress callback asked; nothing was written"
+        )
+
+
+def tell_end(progress: Progress | None) -> None:
+    """Say that all is done; the mesh may have been made several times."""
+    tell(progress, "mapping", _STAGES["mapping"][1])
 
 
 class Stopwatch:
@@ -111,11 +127,4 @@ class Stopwatch:
 
     def _tell(self, done: float) -> None:
         self._done = max(self._done, done)  # another round does not take back what was said
-        if self._progress is None:
-            return
-        answer = self._progress(self._name, self._done)
-        if isinstance(answer, (bool, np.bool_)) and not answer:
-            raise Cancelled(
-                f"stopped in the stage {self._name!r}, as the progress callback asked; "
-                "nothing was written"
-            )
+        tell(self._progress, self._name, self._done)

@@ -30,6 +30,7 @@ from surfmesh.quality.verdict.problems import problems
 from surfmesh.quality.verdict.remarks import remarks
 from surfmesh.quality.verdict.worst import worst_triangles
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.truth_value import truth_value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +50,8 @@ class Report(Figures):
 def check(mesh: SurfaceMesh, *, second_opinion: bool = False, prove: bool | None = None) -> Report:
     """The report of ``mesh``, as ``surfmesh.check`` says (api.py)."""
     start = perf_counter()
+    second_opinion = truth_value("second_opinion", second_opinion)
+    prove = None if prove is None else truth_value("prove", prove)
     measured = Measurements(mesh)
     promised = mesh.sizing is not None and mesh.sizing.proof
     report = _report(measured, promised if prove is None else prove)

@@ -7,6 +7,7 @@ import numpy as np
 
 from surfmesh.result.facets import facets
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.truth_value import truth_value
 from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import CURVATURES, HUES, Colouring, colouring
 from surfmesh.view.faces_apart import faces_apart
@@ -51,6 +52,8 @@ def drawing(
     title: str | None = None,
 ) -> Drawing:
     """The drawing of ``mesh``; options and errors as of ``plot``."""
+    edges = None if edges is None else truth_value("edges", edges)
+    circles, directions = truth_value("circles", circles), truth_value("directions", directions)
     shown = faces_apart(mesh) if by in CURVATURES else mesh
     drawn = Drawing(
         shown,

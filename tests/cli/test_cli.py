@@ -233,6 +233,27 @@ def test_options_of_meshing_are_refused_where_the_mesh_is_there_already(
     assert said in capsys.readouterr().err and [*tmp_path.iterdir()] == [tmp_path / "b.stl"]
 
 
+@pytest.mark.parametrize("given", [["torus"], SADDLE], ids=["gallery", "formulas"])
+@pytest.mark.parametrize("option", [
+    ["--no-strict"], ["--scheduler", "tcp://nowhere:1"], ["--run-python"], ["--no-isolate"],
+    ["--time-limit", "3"], ["--memory-limit", "5"],
+])  # fmt: skip
+def test_options_of_cad_models_are_refused_of_formulas(given, option, tmp_path, capsys):
+    """They were passed over without a word."""
+    assert main(["mesh", *given, "-o", str(tmp_path / "a.vtu"), "--size", "0.5", *option]) == 2
+    name, said = option[0].removeprefix("--"), capsys.readouterr().err
+    assert (name in said and "does nothing here" in said) or "are of reading CAD files" in said
+    assert not [*tmp_path.iterdir()]
+
+
+def test_a_program_is_read_without_limits(tmp_path, capsys):
+    path = tmp_path / "part.py"
+    path.write_text("result = 3")
+    argv = ["estimate", str(path), "--run-python", "--time-limit", "3"]
+    assert main(argv) == 2
+    assert "--time-limit does nothing here: a program runs in" in capsys.readouterr().err
+
+
 def test_mesh_writes_its_report_as_html(stand_in, tmp_path):
     path = tmp_path / "a.html"
     argv = ["mesh", *SADDLE, "-o", str(tmp_path / "a.vtu"), "--report", str(path)]

@@ -2,6 +2,7 @@
 
 import json
 
+import cadquery as cq
 import pytest
 
 from surfmesh.cli import main
@@ -45,3 +46,12 @@ def test_patches_that_coincide_are_merged_on_request(tmp_path, capsys):
     assert main([*argv, "--coincident", "merge", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["clean"]
+
+
+def test_limits_of_reading_hold_for_cad_files_beside_formulas(tmp_path, capsys):
+    part = tmp_path / "part.brep"
+    cq.exporters.export(cq.Workplane().box(5, 5, 5), str(part))
+    options = ["-o", str(tmp_path / "a.vtu"), "--size", "1", "--no-isolate"]
+    assert main(["intersect", "wavy", "torus", *options]) == 2
+    assert "isolate are of reading CAD files" in capsys.readouterr().err
+    assert main(["intersect", "wavy", str(part), *options]) == 0

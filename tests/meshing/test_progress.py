@@ -21,15 +21,27 @@ THINGS = {
 
 
 @pytest.mark.parametrize("kind", THINGS)
-def test_shares_never_fall_and_end_below_one(kind):
+def test_shares_never_fall_and_end_at_one(kind):
     make, sizes = THINGS[kind]
     heard = []
     sm.mesh(make(), sizes, progress=lambda *said: heard.append(said))
     fractions = [fraction for _, fraction in heard]
-    assert fractions == sorted(fractions) and fractions[0] == 0.0 and fractions[-1] <= 1.0
+    assert fractions == sorted(fractions) and fractions[0] == 0.0 and fractions[-1] == 1.0
     stages = {stage for stage, _ in heard}
     assert stages >= {"sizing", "faces" if kind == "model" else "packing", "mapping"}
     assert len(set(fractions)) > 6  # faces and passes are heard of, not only stages
+
+
+@pytest.mark.parametrize(
+    "options",
+    [dict(triangles=200), dict(chord=0.1, order=2), dict(chord=0.1, vertices="balanced")],
+    ids=["triangles", "order 2", "balanced"],
+)
+def test_it_ends_at_one_where_there_is_more_to_do_after_a_mesh(options):
+    heard = []
+    sm.mesh(THINGS["surface"][0](), **options, progress=lambda *said: heard.append(said))
+    fractions = [fraction for _, fraction in heard]
+    assert fractions == sorted(fractions) and fractions.count(1.0) == 1
 
 
 def test_faces_are_most_of_the_work_of_a_model():

@@ -7,6 +7,7 @@ from typing import Any
 from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.errors import CadError, SurfmeshError
+from surfmesh.truth_value import truth_value
 
 
 def from_cadquery(
@@ -34,7 +35,7 @@ def from_cadquery(
     from surfmesh.cad.conversion.model_of_parts import model_of
     from surfmesh.cad.sub_shapes import said_by
 
-    joining = Joining.of(imprint, sew)
+    heal, joining = truth_value("heal", heal, CadError), Joining.of(imprint, sew)
     source = f"{type(obj).__module__.split('.')[0]} {type(obj).__name__}"
     try:
         return model_of(part_of(obj), heal=heal, units=units, source=source, joining=joining)

@@ -45,6 +45,9 @@ from surfmesh.cad.parts import Details, Part, face_in_words
 from surfmesh.cad.sub_shapes import Numbering, below, content, each, volume_within
 from surfmesh.errors import CadError, SurfmeshError
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.number_range import RANGE
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Domain
 
 # relative error of areas and volumes of faces by adaptive integration, which is slow on splines
@@ -240,6 +243,7 @@ class Walk:
         if not loops:
             raise CadError("it has no edges; give the face its boundary in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
+        _require_numbers(surface)
         area = _area(face, surface.kind, loops)
         closed = None not in surface.periods or surface.kind == "sphere"
         wrong = misdirected(loops, closed) if self.heal else []
@@ -323,6 +327,15 @@ def _one_tag(parts: list[CadTag]) -> CadTag:
         for many in ("faces", "edges", "vertices", "solids")
     }
     return CadTag(parts[0].name, ", ".join(dict.fromkeys(p.held for p in parts)), **every)
+
+
+def _require_numbers(surface: FaceSurface) -> None:
+    """Raise CadError for a surface whose frame or radius is no number to compute with."""
+    points = surface.evaluate(parameter_grid(surface.domain, 3))[0]
+    if np.isnan(points).any(axis=1).all():  # at some an offset surface may have none
+        raise CadError(f"its {surface.kind} is given by numbers that are not finite")
+    if (np.abs(points) > RANGE.coordinate).any():
+        raise CadError(f"its {surface.kind} has points too far away to compute with")
 
 
 def _area(face: TopoDS_Face, kind: str, loops: Iterable[Loop]) -> float:

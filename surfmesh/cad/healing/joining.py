@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
 
 from surfmesh.errors import CadError
+from surfmesh.truth_value import is_truth_value
 
 if TYPE_CHECKING:
     from surfmesh.cad.parts import Part
@@ -27,7 +27,7 @@ class Joining:
     @classmethod
     def of(cls, imprint: Any, sew: Any) -> Self:
         """What a caller gave. Raises CadError for what is no tolerance."""
-        if imprint is None or _is_bool(imprint):
+        if imprint is None or is_truth_value(imprint):
             imprint = bool(imprint)
         else:
             imprint = _tolerance("imprint", imprint, "True, False or a tolerance")
@@ -51,15 +51,9 @@ class Joining:
         return root
 
 
-def _is_bool(value: Any) -> bool:
-    """Python's or NumPy's; NumPy is not imported for that, as this comes before a file is read."""
-    numpy = sys.modules.get("numpy")
-    return isinstance(value, bool) or (numpy is not None and isinstance(value, numpy.bool_))
-
-
 def _tolerance(name: str, value: Any, wanted: str) -> float:
     try:
-        number = math.nan if _is_bool(value) or isinstance(value, str) else float(value)
+        number = math.nan if is_truth_value(value) or isinstance(value, str) else float(value)
     except (TypeError, ValueError):
         number = math.nan
     if not 0.0 < number < math.inf:

@@ -31,6 +31,7 @@ from surfmesh.cad.reading.limits import MORE_MEMORY, MORE_TIME, Limits, peak_meg
 from surfmesh.cad.units import checked_unit
 from surfmesh.errors import CadError
 from surfmesh.result.model_facts import file_sha256
+from surfmesh.truth_value import truth_value
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadModel
@@ -99,14 +100,14 @@ def begun_reading(
     if place.stat().st_size == 0:
         raise CadError(f"{place.name} is empty")
     checked_unit(units)
-    joining = Joining.of(imprint, sew)
-    if not isolate:
+    heal, joining = truth_value("heal", heal, CadError), Joining.of(imprint, sew)
+    if not truth_value("isolate", isolate, CadError):
         if time_limit is not None or memory_limit is not None:
             raise CadError("limits of time and memory hold in a child process alone: leave them "
                            "out, or the file is read with isolate=True")  # fmt: skip
-        return _ReadingHere(place, bool(heal), units, joining)
+        return _ReadingHere(place, heal, units, joining)
     limits = Limits.of(place, time_limit, memory_limit, bool(joining))
-    wanted = {"path": str(place.resolve()), "heal": bool(heal), "units": units}
+    wanted = {"path": str(place.resolve()), "heal": heal, "units": units}
     wanted |= {"imprint": joining.imprint, "sew": joining.sew}
     command = [sys.executable, "-P", "-m", "surfmesh.cad.reading.child"]
     return _ReadingByChild(place, Child(command, wanted, place.name, limits))

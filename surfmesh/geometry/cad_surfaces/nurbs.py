@@ -21,7 +21,7 @@ from surfmesh._core import surfaces
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.curves import PlainCurve
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
-from surfmesh.geometry.cad_surfaces.plain_data import frozen_array
+from surfmesh.geometry.cad_surfaces.plain_data import frozen_array, poles_of
 
 
 def bezier_knots(degree: int) -> np.ndarray:
@@ -45,7 +45,7 @@ class BSplineCurve(PlainCurve):
     degree: int = field(init=False)
 
     def __post_init__(self) -> None:
-        knots, control = frozen_array(self.knots), frozen_array(self.control)
+        knots, control = frozen_array(self.knots), poles_of("a curve", self.control)
         self._set(knots=knots, control=control)
         if control.ndim != 2:
             raise SurfaceError("the control points of a curve are an array (n, d)")
@@ -78,7 +78,7 @@ class BSplineSurface(FaceSurface):
 
     def _made(self) -> surfaces.Surface:
         knots_u, knots_v = frozen_array(self.knots_u), frozen_array(self.knots_v)
-        control = frozen_array(self.control)
+        control = poles_of(self.name, self.control)
         self._set(knots_u=knots_u, knots_v=knots_v, control=control)
         if control.ndim != 3 or control.shape[2] != 3:
             raise SurfaceError(f"{self.name}: the control points are an array (nu, nv, 3)")
@@ -128,6 +128,6 @@ def _checked_weights(what: str, control: np.ndarray, given: np.ndarray) -> np.nd
     weights = frozen_array(given)
     if weights.shape != control.shape[:-1]:
         raise SurfaceError(f"{what}: there must be one weight for each control point")
-    if not (weights > 0.0).all():
-        raise SurfaceError(f"{what}: weights must be positive")
+    if not ((weights > 0.0) & np.isfinite(weights)).all():
+        raise SurfaceError(f"{what}: weights must be positive numbers")
     return weights

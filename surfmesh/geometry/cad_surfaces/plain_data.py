@@ -9,6 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from surfmesh.errors import SurfaceError
+from surfmesh.geometry.number_range import RANGE
+
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class PlainData:
@@ -35,6 +38,20 @@ def frozen_array(values: Sequence | np.ndarray) -> np.ndarray:
     array = np.array(values, dtype=float, order="C")
     array.setflags(write=False)
     return array
+
+
+def poles_of(what: str, values: Sequence | np.ndarray) -> np.ndarray:
+    """Control points (..., d), read-only; what: whose they are. Raises SurfaceError for one that is
+    not finite, or too far away to compute with."""
+    poles = frozen_array(values)
+    places = poles.reshape(-1, poles.shape[-1]) if poles.ndim else poles.reshape(1, 1)
+    bad = np.flatnonzero(~(np.abs(places) <= RANGE.coordinate).all(axis=1))  # nan too
+    if len(bad):
+        place = places[bad[0]]
+        reason = "too far away to compute with" if np.isfinite(place).all() else "not finite"
+        shown = ", ".join(f"{x:g}" for x in place)
+        raise SurfaceError(f"{what}: the pole ({shown}) is {reason}")
+    return poles
 
 
 @cache

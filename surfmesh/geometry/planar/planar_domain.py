@@ -267,7 +267,7 @@ class PlanarDomain(PlaneOfCoordinates):
             graph, said = _thinned(graph, asked.simplify, places)
             closed = [_still_there(loop, graph, merge) for loop in closed]
             polylines = [_still_there(line, graph, merge, 2) for line in polylines]
-            changes.append(said)
+            changes += said
         low, high = graph.points.min(axis=0).tolist(), graph.points.max(axis=0).tolist()
         self.__dict__.update(
             name=str(asked.name),
@@ -348,7 +348,7 @@ class PlanarDomain(PlaneOfCoordinates):
             graph=graph,
             outer=tuple(_still_there(loop, graph, 0.0) for loop in self.outer),
             holes=tuple(_still_there(loop, graph, 0.0) for loop in self.holes),
-            changes=(*self.changes, said),
+            changes=(*self.changes, *said),
         )
         return made
 
@@ -366,13 +366,18 @@ class PlanarDomain(PlaneOfCoordinates):
         raise AttributeError(f"a domain does not change; make a new one to set {name!r}")
 
 
-def _thinned(graph: SegmentGraph, distance: Any, places: np.ndarray) -> tuple[SegmentGraph, str]:
-    """The graph with thinned lines, the demanded ``places`` (p, 2) kept, and what that did."""
+def _thinned(
+    graph: SegmentGraph, distance: Any, places: np.ndarray
+) -> tuple[SegmentGraph, list[str]]:
+    """The graph with thinned lines, the demanded ``places`` (p, 2) kept, and what that did, if
+    anything."""
     thin = thinned(graph, positive_distance("simplify", distance), _near(graph, places))
-    return thin, (
+    if len(thin.points) == len(graph.points):
+        return thin, []
+    return thin, [
         f"lines were thinned from {len(graph.points):,} to {len(thin.points):,} points, within "
         f"{distance:g} of those given"
-    )
+    ]
 
 
 def _near(graph: SegmentGraph, places: np.ndarray) -> np.ndarray:

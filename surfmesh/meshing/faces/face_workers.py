@@ -9,13 +9,13 @@ whoever makes it, and when.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from queue import SimpleQueue
 from threading import Event
 
-from surfmesh.errors import MeshingError
+from surfmesh.meshing.executors import executor_faults
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_jobs import FaceJobs
 from surfmesh.meshing.faces.face_mesh import mesh_face
@@ -70,7 +70,7 @@ class FaceWorkers:
 
         Those of ``FaceJobs`` are made when they are begun, most work first. Where the iterator is
         closed early, what has not begun is not done. Raises ``MeshingError`` when the executor has
-        lost its workers.
+        lost its workers, takes no work or cannot send it.
         """
         jobs = jobs if isinstance(jobs, FaceJobs) else FaceJobs.of(jobs)
         if self.executor is not None:
@@ -171,14 +171,13 @@ def _by_executor(
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
         jobs.make(range(len(jobs)))
-        for batch in batches_of(list(map(expected_work, jobs.nodes)), batches):
-            future = executor.submit(_mesh_batch, workers, [jobs[k] for k in batch])
-            futures.update({k: (future, place) for place, k in enumerate(batch)})
-        for k in range(len(jobs)):
-            future, place = futures[k]
-            yield k, future.result()[place]
-    except BrokenExecutor as error:
-        raise MeshingError(f"the workers that mesh the faces are lost: {error}") from error
+        with executor_faults("mesh the faces"):
+            for batch in batches_of(list(map(expected_work, jobs.nodes)), batches):
+                future = executor.submit(_mesh_batch, workers, [jobs[k] for k in batch])
+                futures.update({k: (future, place) for place, k in enumerate(batch)})
+            for k in range(len(jobs)):
+                future, place = futures[k]
+                yield k, future.result()[place]
     finally:
         for future, _ in futures.values():
             future.cancel()

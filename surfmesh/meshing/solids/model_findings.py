@@ -62,8 +62,8 @@ def not_refined(faces: list[FaceState]) -> list[str]:
     names = [state.label.removeprefix("face ") for state in faces]
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
     return [
-        f"smaller sizes, tried in up to {MAX_ROUNDS} rounds, have not sufficed on faces "
-        f"{', '.join(names[:SHOWN])}{more}"
+        f"smaller sizes, tried in up to {MAX_ROUNDS} rounds, have not sufficed on "
+        f"face{'s' if len(names) > 1 else ''} {', '.join(names[:SHOWN])}{more}"
     ]
 
 

@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from surfmesh.cad.model.is_cad_model import is_cad_model
-from surfmesh.errors import SizingError, shown
+from surfmesh.errors import SizingError
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import SizeLaw, Sizing, require_known
+from surfmesh.sizing.options.sizing import SizeLaw, Sizing, checked_order, require_known
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadModel
@@ -51,14 +51,31 @@ def sizes_of_order(sizing: Sizes, order: int | None) -> tuple[Sizes, int]:
     own = _stated(of_all, "order")
     if order is None:
         order = 1 if own is None else own
-    if order not in (1, 2):
-        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    order = checked_order(order)
     every = sizing.values() if isinstance(sizing, Mapping) else [sizing]
     of_sizes = order if any(_stated(one, "chord") is not None for one in every) else 1
     if of_sizes == (own or 1):
         return sizing, order
     wanted = Sizing.of(of_all).replaced(order=of_sizes)
     return {**sizing, "*": wanted} if isinstance(sizing, Mapping) else wanted, order
+
+
+def idle_options(sizing: Sizes, optimise: bool) -> list[str]:
+    """A sentence for each option that has no effect on any part beside what else is asked for."""
+    if isinstance(sizing, Mapping) and _by_selection(sizing):
+        parts = [Sizing.of(one) for one in sizing.values()]
+    else:
+        parts = [Sizing.of(sizing)]
+    found = []
+    if not optimise and any(part.fewest for part in parts):
+        found.append("fewest has no effect with optimise=False, as it moves vertices")
+    stretched = [part for part in parts if part.anisotropy > 1.0]
+    if stretched and all(part.is_of_size_alone for part in parts):
+        found.append(
+            f"anisotropy {stretched[0].anisotropy:g} has no effect with size alone, which holds in "
+            "every direction: give a chord or an angle, with max_size"
+        )
+    return found
 
 
 def _stated(sizing: Any, name: str) -> Any:

@@ -19,13 +19,23 @@ def checked_sizes(law: Callable, points: np.ndarray, what: str) -> np.ndarray:
         found = law(points.copy())
     sizes = as_numbers(found)
     if sizes is None or sizes.shape != (len(points),) or not (sizes > 0.0).all():
-        gave = f"shape {sizes.shape}" if sizes is not None else shown(found)
-        least = f", smallest {sizes.min():g}" if sizes is not None and sizes.size else ""
         raise SizingError(
             f"{what} law must give positive numbers of shape ({len(points)},) for points "
-            f"({len(points)}, 3); it gave {gave}{least}"
+            f"({len(points)}, 3); it gave {_what_is_wrong(found, sizes, points)}"
         )
     return sizes
+
+
+def _what_is_wrong(found: Any, sizes: np.ndarray | None, points: np.ndarray) -> str:
+    """What a law gave instead of sizes; of numbers one that is no size, with its place."""
+    if sizes is None:
+        return shown(found)
+    if sizes.shape != (len(points),):
+        least = f", smallest {sizes.min():g}" if sizes.size else ""
+        return f"shape {sizes.shape}{least}"
+    bad = int((~(sizes > 0.0)).argmax())
+    place = ", ".join(f"{x:.6g}" for x in points[bad])
+    return f"{sizes[bad]:g} at ({place})"
 
 
 def as_numbers(found: Any) -> np.ndarray | None:

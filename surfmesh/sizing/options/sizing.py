@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import wraps
+from numbers import Real
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.size_laws import checked_sizes
 from surfmesh.sizing.options.sources import source_sizes
+from surfmesh.truth_value import is_truth_value, truth_value
 
 MOST_STRETCHED = 1e6
 """Largest ratio of two sizes: beyond it areas are round-off."""
@@ -107,7 +109,8 @@ class Sizing:
     order: int = 1
     """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
     ``chord`` is the distance of the curved triangles, which are far larger, unless ``anisotropy``,
-    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then."""
+    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then, as
+    they are where no ``chord`` is given."""
 
     vertices: str = ON_SURFACE
     """Where they lie: "on_surface", or "balanced": they move along the normals until the surface
@@ -135,6 +138,8 @@ class Sizing:
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
+        for name in ("proof", "fewest", "gap_faces"):
+            object.__setattr__(self, name, truth_value(name, getattr(self, name)))
         if self.size is not None and not callable(self.size):
             object.__setattr__(self, "size", positive("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
@@ -168,17 +173,12 @@ class Sizing:
 
     def _check_choices(self) -> None:
         """What excludes each other of ``order``, ``proof``, ``fewest`` and ``vertices``."""
-        if self.order not in (1, 2):
-            raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
-        if not isinstance(self.proof, bool):
-            raise SizingError(f"proof is True or False, not {shown(self.proof)}")
+        object.__setattr__(self, "order", checked_order(self.order))
         if self.proof and self.chord is None and self.triangles is None:
             raise SizingError("proof needs a chord: it is the distance that is to be proved")
         if self.vertices not in (ON_SURFACE, BALANCED):
             known = f"{ON_SURFACE!r} or {BALANCED!r}"
             raise SizingError(f"vertices is {known}, not {shown(self.vertices)}")
-        if not isinstance(self.fewest, bool):
-            raise SizingError(f"fewest is True or False, not {shown(self.fewest)}")
         if self.fewest and self.chord is None and self.triangles is None:
             raise SizingError("fewest needs a chord: it is what the triangles are to keep")
         if self.fewest and self.is_curved:
@@ -212,12 +212,19 @@ class Sizing:
             if getattr(self, name) is not None:
                 raise SizingError(f"triangles and {name} both say how fine the mesh is: give one")
         if self.limit < asked:
-            raise SizingError(f"triangles {int(asked):,} is above limit {self.limit:,}")
+            count = f"{int(asked):,}" if asked < 1e15 else f"{asked:g}"  # no 300 digits
+            raise SizingError(f"triangles {count} is above limit {self.limit:,}")
 
     @property
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
+
+    @property
+    def is_of_size_alone(self) -> bool:
+        """Does nothing but ``size`` and sources say how fine the mesh is?"""
+        others = (self.chord, self.angle, self.volume, self.triangles)
+        return self.size is not None and all(other is None for other in others)
 
     @property
     def uses_evenly(self) -> bool:
@@ -300,6 +307,14 @@ class Sizing:
         if isinstance(given, (int, float)) or callable(given):
             return cls(size=given)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")
+
+
+def checked_order(order: Any) -> int:
+    """1 or 2 as an int. Raises ``SizingError`` for anything else."""
+    is_number = isinstance(order, Real) and not is_truth_value(order)
+    if not is_number or order not in (1, 2):
+        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    return int(order)
 
 
 def require_known(given: Mapping[Any, Any], beside: Sequence[str] = ()) -> None:

@@ -26,6 +26,7 @@ from surfmesh.geometry.planar.segment_distance import SegmentDistance
 from surfmesh.sizing.options.distance_size import polylines
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.size_laws import as_numbers, checked_sizes
+from surfmesh.truth_value import truth_value
 
 MARK_STEP = 4.0
 """Marks along lines and within boxes are so many sizes apart,"""
@@ -110,6 +111,7 @@ class Near(Source):
 
     def __post_init__(self) -> None:
         self._check()
+        object.__setattr__(self, "lines", truth_value("lines", self.lines))
         is_scalar = np.isscalar(self.radius)
         if isinstance(self.radius, str) or not is_scalar or not (0.0 <= self.radius < np.inf):
             raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")

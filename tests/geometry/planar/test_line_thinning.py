@@ -81,6 +81,11 @@ def test_an_outline_finer_than_the_sizes_is_said_and_can_be_thinned():
     assert "thinned from 1,500" in thin.warnings[0]
 
 
+def test_nothing_is_said_where_nothing_is_thinned():
+    assert sm.PlanarDomain(SQUARE, simplify=1e-3).warnings == ()
+    assert sm.PlanarDomain(SQUARE).simplified(1e-3).warnings == ()
+
+
 @given(st.integers(0, 10_000), st.integers(20, 400), st.floats(1e-4, 0.05), st.booleans())
 @settings(max_examples=25, deadline=None)
 def test_thinned_lines_stay_near_and_keep_their_regions(seed, count, fraction, holed):

@@ -5,7 +5,7 @@ import pickle
 import signal
 import subprocess
 import sys
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from threading import Thread, active_count
 from time import sleep
@@ -21,6 +21,7 @@ import surfmesh as sm
 from surfmesh._core import allow_threads
 from surfmesh.errors import Cancelled, MeshingError
 from surfmesh.meshing.estimate.unmeshed_model import UnmeshedModel
+from surfmesh.meshing.executors import executor_faults
 from surfmesh.meshing.faces import face_queue, face_workers
 from surfmesh.meshing.faces.face_workers import FaceWorkers, batches_of
 
@@ -170,6 +171,28 @@ def test_lost_processes_are_named():
     with OneIsLost(1, mp_context=get_context("spawn")) as executor:
         with pytest.raises(MeshingError, match="workers that mesh the faces are lost"):
             sm.mesh(part(), SIZE, executor=executor)
+
+
+def test_processes_that_are_shut_down_take_no_work():
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as executor:
+        pass
+    with pytest.raises(MeshingError, match="executor that is to mesh the faces is shut down: call"):
+        sm.mesh(part(), SIZE, executor=executor)
+
+
+def test_laws_that_cannot_be_sent_are_said_to_be_so():
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as executor:
+        with pytest.raises(MeshingError, match=r"cannot be sent to them .*: laws .* no lambdas"):
+            sm.mesh(part(), lambda points: np.full(len(points), 2.0), executor=executor)
+
+
+def test_faults_of_the_work_itself_are_left_as_they_are():
+    def law(points):
+        raise AttributeError("no such thing")
+
+    with ThreadPoolExecutor(1) as executor, executor_faults("mesh"):
+        with pytest.raises(AttributeError, match="no such thing"):
+            executor.submit(law, None).result()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a worker is killed by a signal")

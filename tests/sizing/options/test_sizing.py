@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import SizingError
+from surfmesh.sizing.options.given_sizes import sizes_of_order
 from surfmesh.sizing.options.sizing import Sizing
 
 REFUSED = {
@@ -24,6 +25,9 @@ REFUSED = {
     "angle": (dict(angle=91), "angle must be at most 90 degrees, not 91"),
     "order": (dict(min_size=2, max_size=1), "min_size 2 is larger than max_size 1"),
     "below": (dict(size=1, min_size=2), "size 1 is below min_size 2"),
+    "true order": (dict(order=True), "order is True: meshes are of order 1 or 2"),
+    "complex order": (dict(order=2 + 0j), r"order is \(2\+0j\): meshes are of"),
+    "many triangles": (dict(triangles=1e300), r"^triangles 1e\+300 is above limit 20,000,000$"),
     "above": (dict(size=3, max_size=2), "size 3 is above max_size 2"),
 }
 
@@ -68,3 +72,17 @@ def test_options_cannot_be_changed():
     with pytest.raises(AttributeError):
         sizing.chord = 0.2
     assert sizing.replaced(chord=0.2).chord == 0.2 and sizing.chord == 0.1
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan])
+def test_a_law_that_gives_no_size_is_told_where(bad):
+    points = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]])
+    law = Sizing(size=lambda points: np.where(points[:, 0] > 3.0, bad, 1.0))
+    with pytest.raises(SizingError, match=rf"it gave {bad:g} at \(4, 5, 6\)$"):
+        law.law_sizes(points)
+
+
+def test_orders_of_any_type_become_whole_numbers():
+    assert [type(Sizing(order=order).order) for order in (2, 2.0, np.int64(2))] == [int] * 3
+    with pytest.raises(SizingError, match="order is True"):
+        sizes_of_order(None, True)
