@@ -172,3 +172,9 @@ def test_waves_that_triangles_of_min_size_cannot_follow_are_a_limit(least):
     assert report.clean, report.problems
     (limit,) = report.limits
     assert limit.reached >= max(report.deviation_max, report.unseen_max)
+
+
+def test_no_rounds_are_made_for_sizes_that_min_size_forbids(caplog):
+    with caplog.at_level("INFO", logger="surfmesh"):
+        waves(min_size=0.2)
+    assert sum(line.startswith("packing") for line in caplog.messages) <= 2
