@@ -290,7 +290,7 @@ void bind_schedule(nb::class_<BoundPatch>& c) {
                 require_rows(off_surface->shape(0), p.state.nodes().vertex.size(), "off_surface");
                 off = rows<std::uint8_t>(*off_surface);
             }
-            return p.run([&](PatchState& s) { return size_requests(s, left, off); });
+            return p.run([&](PatchState& s) { return size_requests(s, left, off, true); });
         },
         nb::arg("left"), nb::arg("off_surface") = nb::none(),
         "Upper bounds of the size under which what is ``left`` would be right.\n\n"

@@ -12,6 +12,10 @@ namespace surfmesh {
 /// A bend is sharp, and no size smaller, below this fraction of ``chord``.
 inline constexpr double LEAST_OF_CHORD = 0.5;
 
+/// Where ``min_size`` cuts off what is asked for, it is asked for up to this part of the size that is
+/// there: for less another round is no help.
+inline constexpr double WORTH_A_ROUND = 0.9;
+
 /// A size that bounds none.
 inline constexpr double NO_LARGEST = std::numeric_limits<double>::infinity();
 

@@ -114,7 +114,7 @@ void PatchWork::optimise_and_map() {
     if (task_.optimise) {
         const Unmended left = optimise(state, task_.first);
         const Array<std::uint8_t> off = off_surface(state);
-        if (!state.stopped()) made_.requests = size_requests(state, left, off);
+        if (!state.stopped()) made_.requests = size_requests(state, left, off, task_.first);
         state.restore_nodes();
         state.hold_growth(true);  // what has moved and was swapped last has other neighbours
     } else {

@@ -19,6 +19,14 @@ double clipped(double x, const double (&range)[2]) {
     return std::min(std::max(x, range[0]), range[1]);
 }
 
+/// What is asked for where ``min_size`` binds.
+struct BoundedRequests {
+    double lower;  // what leaves more than this fraction of the size is no request
+    double next;   // what is asked for is cut if this part of it is below ``min_size``
+};
+constexpr BoundedRequests NONE_CUT{LOWER, 1.0}, CUT_AT_FIRST{WORTH_A_ROUND, 1.0},
+    CUT_LATER{0.7, 0.95};
+
 /// The smallest factor that is wanted at each vertex; 1 where none is.
 class WantedFactors {
   public:
@@ -33,22 +41,22 @@ class WantedFactors {
     }
     /// The field's sizes times the factors, where that is smaller than now: not below ``least``,
     /// which no mesh needs, nor below the smallest size asked for.
-    [[nodiscard]] SizeLimitArrays limits(double least) const;
+    [[nodiscard]] SizeLimitArrays limits(double least, BoundedRequests cut) const;
 
   private:
     const PatchState& state_;
     Array<double> factor_;
 };
 
-SizeLimitArrays WantedFactors::limits(double least) const {
+SizeLimitArrays WantedFactors::limits(double least, BoundedRequests cut) const {
     const SurfaceFrames& s = state_.frames;
-    least = std::max(least, state_.asked().min_size);
+    const double min_size = state_.asked().min_size;
     SizeLimitArrays found;
     for (Vertex v = 0; v < state_.t.vertices(); ++v) {
         if (!(factor_[v] < 1.0)) continue;
         const double now = s.size[v] / s.scale[v];
-        const double size = std::max(factor_[v] * now, least);
-        if (!(size < LOWER * now)) continue;
+        const double wanted = std::max(factor_[v] * now, least), size = std::max(wanted, min_size);
+        if (!(size < (cut.next * wanted < min_size ? cut.lower : LOWER) * now)) continue;
         found.points.push_back(s.point[v]);
         found.sizes.push_back(size);
         if (!s.is_anisotropic) continue;
@@ -62,14 +70,15 @@ SizeLimitArrays WantedFactors::limits(double least) const {
 }
 
 /// Limits under which triangles would come to lie within ``chord``.
-SizeLimitArrays limits_for_chord(PatchState& state, const Array<Triangle>& triangles) {
+SizeLimitArrays limits_for_chord(PatchState& state, const Array<Triangle>& triangles,
+                                 BoundedRequests cut) {
     const double chord = *state.asked().chord;
     const Array<double> error = deviations(state, triangles, chord);
     WantedFactors wanted(state);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         wanted.want(triangles[k],
                     clipped(std::sqrt(CHORD_MARGIN * chord / error[k]), CHORD_FACTORS));
-    return wanted.limits(2.0 * chord);
+    return wanted.limits(2.0 * chord, cut);
 }
 
 /// Limits under which folded triangles may unfold.
@@ -84,11 +93,12 @@ SizeLimitArrays limits_for_folds(PatchState& state, const Array<Triangle>& trian
     WantedFactors wanted(state);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         if (!sharp[k]) wanted.want(triangles[k], FOLD_FACTOR);
-    return wanted.limits(LEAST_OF_CHORD * state.asked().chord.value_or(0.0));
+    return wanted.limits(LEAST_OF_CHORD * state.asked().chord.value_or(0.0), NONE_CUT);
 }
 
 /// Limits under which triangles would meet at no more than ``angle``.
-SizeLimitArrays limits_for_angle(PatchState& state, const Dihedrals& dihedrals) {
+SizeLimitArrays limits_for_angle(PatchState& state, const Dihedrals& dihedrals,
+                                 BoundedRequests cut) {
     const double limit = angle_limit(*state.asked().angle, ANGLE_MARGIN);
     WantedFactors wanted(state);
     for (std::size_t k = 0; k < dihedrals.angles.size(); ++k) {
@@ -96,7 +106,7 @@ SizeLimitArrays limits_for_angle(PatchState& state, const Dihedrals& dihedrals) 
         wanted.want(dihedrals.triangles[k].first, factor);
         wanted.want(dihedrals.triangles[k].second, factor);
     }
-    return wanted.limits(FINEST_BY_ANGLE * state.diagonal());
+    return wanted.limits(FINEST_BY_ANGLE * state.diagonal(), cut);
 }
 
 /// The triangles with no node at a corner that is marked.
@@ -116,13 +126,15 @@ Array<Triangle> without(const PatchState& state, const Array<Triangle>& triangle
 }  // namespace
 
 SizeRequests size_requests(PatchState& state, const Unmended& left,
-                           std::span<const std::uint8_t> off_surface) {
+                           std::span<const std::uint8_t> off_surface, bool first) {
+    const BoundedRequests cut = first ? CUT_AT_FIRST : CUT_LATER;
     SizeRequests requests;
     const Array<Triangle> far = without(state, left.far, off_surface);
     const Array<Triangle> folded = without(state, left.folded, off_surface);
-    if (!far.empty()) requests.chord = limits_for_chord(state, far);
+    if (!far.empty()) requests.chord = limits_for_chord(state, far, cut);
     if (!folded.empty()) requests.folds = limits_for_folds(state, folded);
-    if (!left.dihedrals.angles.empty()) requests.angle = limits_for_angle(state, left.dihedrals);
+    if (!left.dihedrals.angles.empty())
+        requests.angle = limits_for_angle(state, left.dihedrals, cut);
     return requests;
 }
 

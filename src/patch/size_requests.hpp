@@ -22,8 +22,9 @@ struct SizeRequests {
 /// What would mend what the optimiser has left.
 ///
 /// off_surface: marks of the nodes that lie off the surface themselves, or none: for the triangles
-/// at them smaller sizes are no help.
+/// at them smaller sizes are no help. first: as of ``optimise``; later rounds ask for no more where
+/// ``min_size`` binds and sizes are near to it: round after round would find some.
 SizeRequests size_requests(PatchState& state, const Unmended& left,
-                           std::span<const std::uint8_t> off_surface);
+                           std::span<const std::uint8_t> off_surface, bool first);
 
 }  // namespace surfmesh

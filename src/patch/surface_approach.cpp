@@ -53,6 +53,7 @@ class SurfaceApproach {
   private:
     Triangles shrink_in_rounds(int rounds, bool splits);
     Triangles move_far(Triangles far, int rounds);
+    void move_held();
     Triangles raise_bad(Triangles far);
     /// Where rims meet a lattice, far triangles are of bad shape too.
     [[nodiscard]] double stiffness() const {
@@ -103,6 +104,16 @@ Triangles SurfaceApproach::move_far(Triangles far, int rounds) {
         far = left_of(tracked_.changed(far));
     }
     return far;
+}
+
+/// Move corners of the triangles that are far because of ``min_size``: no more can be done for them,
+/// and nobody has to know how near they come.
+void SurfaceApproach::move_held() {
+    const Triangles held = tracked_.held();
+    for (int round = 0; round < MOVES && !held.empty() && !state_.stopped(); ++round) {
+        state_.bring_nearer(held, {ESTIMATE_MARGIN * chord_, LEAST_SHAPE});
+        if (state_.moved.empty()) return;
+    }
 }
 
 /// Move corners of triangles of bad shape, be they ``far`` or not; returns those left that are far.
@@ -162,6 +173,7 @@ Triangles SurfaceApproach::in_rounds(bool first) {
         return split_far(std::move(far), first);
     }
     far = move_far(std::move(far), MOVES);
+    move_held();
     if (first && is_many(state_, far)) return far;
     state_.allow_splits();
     far = insert_far(std::move(far));

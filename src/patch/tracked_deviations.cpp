@@ -1,6 +1,7 @@
 #include "patch/tracked_deviations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "optimisation/marked_triangles.hpp"
@@ -24,6 +25,10 @@ constexpr double FLAT = 1e-9;
 // Of ``chord``: from where the farthest are taken before others.
 constexpr double CLEARLY_FAR = 1.05;
 
+// Where ``min_size`` binds nothing is split: a triangle is left alone that would be so much too large
+// still if its size were the smallest, since moves make good less.
+constexpr double BEYOND_MOVES = 0.9;
+
 constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
 constexpr std::size_t MEASURED_TOGETHER = 1 << 12;   // whose factors are found together
 constexpr std::size_t CORNERS_COMPARED = 1 << 10;    // with those before at once
@@ -34,6 +39,19 @@ std::size_t with_room(const PatchState& state) { return state.t.xy.size() + stat
 double estimate(const PatchState& state, Triangle k) {
     const Array<Vertex>& tri = state.t.tri;
     return triangle_deviation(state.frames, tri[3 * k], tri[3 * k + 1], tri[3 * k + 2]);
+}
+
+/// Is a triangle with this deviation far because its size is not to be below ``min_size``?
+bool is_held_by_min_size(const PatchState& state, Triangle k, double deviation, double chord) {
+    const double least = state.asked().min_size;
+    if (!(least > 0.0 && deviation > chord)) return false;
+    double size = 0.0;  // the largest that the field has at a corner
+    for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+        const Vertex v = state.t.tri[e];
+        size = std::max(size, state.frames.size[v] / state.frames.scale[v]);
+    }
+    return WORTH_A_ROUND * size <= least &&
+           size * std::sqrt(chord / deviation) < BEYOND_MOVES * least;
 }
 
 }  // namespace
@@ -71,6 +89,11 @@ Array<Triangle> TrackedDeviations::suspects() const {
 }
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
+    if (state_.asked().min_size > 0.0) return measure_free(triangles);
+    return measure_all(triangles);
+}
+
+Array<double> TrackedDeviations::measure_all(const Array<Triangle>& triangles) {
     Array<double> found = deviations(state_, triangles, looked_at_);
     for_each_block(triangles.size(), MEASURED_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {
@@ -78,6 +101,36 @@ Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
             factor_[triangles[k]] = guess > 0.0 ? static_cast<float>(found[k] / guess) : 0.0F;
         }
     });
+    return found;
+}
+
+Array<double> TrackedDeviations::measure_free(const Array<Triangle>& triangles) {
+    Array<Triangle> free;
+    Array<std::size_t> place;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        if (is_held(triangles[k])) continue;
+        free.push_back(triangles[k]);
+        place.push_back(k);
+    }
+    const Array<double> of_free = measure_all(free);
+    Array<double> found(triangles.size(), 0.0);
+    for (std::size_t k = 0; k < free.size(); ++k)
+        if (!is_held_by_min_size(state_, free[k], of_free[k], chord_)) found[place[k]] = of_free[k];
+    return found;
+}
+
+bool TrackedDeviations::is_held(Triangle k) const {
+    const double factor = factor_[k] > 0.0F ? factor_[k] : 1.0;
+    return is_held_by_min_size(state_, k, factor * estimate(state_, k), chord_);
+}
+
+Array<Triangle> TrackedDeviations::held() {
+    Array<Triangle> found;
+    if (!(state_.asked().min_size > 0.0)) return found;
+    const Array<Triangle> near = suspects();
+    const Array<double> deviation = measure_all(near);
+    for (std::size_t k = 0; k < near.size(); ++k)
+        if (is_held_by_min_size(state_, near[k], deviation[k], chord_)) found.push_back(near[k]);
     return found;
 }
 

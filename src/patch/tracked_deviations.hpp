@@ -22,9 +22,11 @@ class TrackedDeviations {
 
     /// All triangles that have to be measured.
     [[nodiscard]] Array<Triangle> suspects() const;
+    /// All that are far because sizes are not to be below ``min_size``.
+    Array<Triangle> held();
     /// From here on triangles near this part of what is allowed have all samples.
     void look_near(double part) { looked_at_ = part * chord_; }
-    /// Distances of the triangles by samples.
+    /// Distances of the triangles by samples; 0 where only sizes below ``min_size`` would mend them.
     Array<double> measure(const Array<Triangle>& triangles);
     /// Those of the triangles that are farther than ``limit``, by samples.
     Array<Triangle> farther(const Array<Triangle>& triangles, double limit);
@@ -41,6 +43,10 @@ class TrackedDeviations {
 
   private:
     [[nodiscard]] bool is_suspect(Triangle k) const;
+    /// Is it far, by the estimate, because its size is not to be below ``min_size``?
+    [[nodiscard]] bool is_held(Triangle k) const;
+    Array<double> measure_all(const Array<Triangle>& triangles);
+    Array<double> measure_free(const Array<Triangle>& triangles);
     [[nodiscard]] Array<HalfEdge> new_corners() const;
     void note_corners();
 

@@ -73,7 +73,7 @@ class BetweenSamples(Part):
     @classmethod
     def of(cls, measured: Measurements) -> "BetweenSamples":
         """Found, or not to be excluded."""
-        seen = measured.unseen
+        seen = None if measured.unseen is None else measured.unseen.total
         surfaces = measured.mesh.surfaces
         return cls(
             unseen=None if seen is None else seen.found + seen.open,

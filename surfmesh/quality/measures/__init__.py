@@ -50,6 +50,7 @@ loose_edges: free rims of faces that lie edge to edge and share nothing: faces t
 coincident_edges: free edges that lie on each other and share no vertices: triangles that were
     never joined.
 true_depth: how deep the corners of facets lie within the true body of other facets that they meet.
+overlap_depth: how deep two solids that overlap go into each other: measured at their vertices.
 bodies: bodies of a model that overlap, and those that touch without a common face.
 
 measurements: all of these of one mesh, each when it is first asked for.

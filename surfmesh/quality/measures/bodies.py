@@ -26,6 +26,7 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.overlap_depth import overlap_depth
 from surfmesh.quality.measures.penetration import depths, distances_allowed
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.solids import solids_beside
@@ -49,7 +50,7 @@ class BodyPair:
     solids: tuple[int, int]  # their numbers; -1: faces of no solid
     kind: str  # "overlap", "touch", or "near": their facets meet, their faces do not
     triangles: int  # pairs of them that meet
-    depth: float | None  # by which they overlap, or their facets do; None: one lies within
+    depth: float | None  # by which they overlap at least, or their facets; None: one lies within
     gap: float | None  # between faces that are near
     point: Point
 
@@ -141,7 +142,12 @@ def _judged(
     depth, place = float(met.depth[worst]), _meeting_point(mesh, met.pairs[worst])
     kind, gap = OVERLAP if depth > met.limit[worst] else TOUCH, None
     known = KnownSurfaces.of(mesh)
-    if kind == TOUCH and (key < count).all() and known is not None:
+    of_solids = bool((key < count).all())
+    if kind == OVERLAP and of_solids:  # triangles that cross go no deeper than they are large
+        deepest = overlap_depth(mesh, (int(key[0]), int(key[1])))
+        if deepest.depth > depth:
+            depth, place = deepest
+    if kind == TOUCH and of_solids and known is not None:
         true = true_depth(known, met.pairs, met.bodies, met.limit)
         if not true.depth > least:  # corners of the triangles that meet do not tell
             solids = (int(key[0]), int(key[1]))

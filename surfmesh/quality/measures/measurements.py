@@ -219,14 +219,18 @@ class Measurements:
         """Does the deviation, both ways, keep to the chord of each face? None: it has none."""
         if self.deviation_both_ways is None or not np.isfinite(self.tolerances.chord).any():
             return None
-        return chord_check(self.tolerances, self.mesh, self.deviation_both_ways)
+        by_triangle, seen = self.deviation_both_ways.by_triangle, self.unseen
+        if seen is not None and len(seen.forbidden):
+            by_triangle = by_triangle.copy()
+            np.maximum.at(by_triangle, seen.forbidden, seen.heights)
+        return chord_check(self.tolerances, self.mesh, by_triangle)
 
     @cached_property
     def beyond_chord(self) -> NDArray[np.bool_] | None:
         """(m,) which triangles lie farther from their surface than its chord; None: not known."""
         if self.deviation is None:
             return None
-        return exceeds_chord(self.tolerances, self.mesh, self.deviation)
+        return exceeds_chord(self.tolerances, self.mesh, self.deviation.by_triangle)
 
     @cached_property
     def chord_use(self) -> ChordUse | None:

@@ -14,14 +14,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles
+from surfmesh.quality.measures.known_surfaces import Rows
 from surfmesh.quality.measures.places import Point, as_point, face_in_words
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
 
-WORTH_ASKING = 0.97  # of the size there: rounds ask for none that is larger (``size_requests.cpp``)
+CHORD_STEP, ANGLE_STEP = 0.75, 0.8
+"""Of the size there: rounds ask for 0.8 and 0.85 of it at most (``size_requests.cpp``); within a
+triangle sizes vary."""
+
+WELL_ABOVE = 3.0
+"""Times ``min_size``, and ``anisotropy``: sides of triangles of that size are shorter; the longest
+that was seen is 2.6 times as long."""
 
 SHOWN = 8  # faces that are named in one line
 
@@ -127,10 +133,12 @@ def _faces(mesh: SurfaceMesh) -> int:
     return max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
 
 
-def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
+def exceeds_chord(
+    tolerances: Tolerances, mesh: SurfaceMesh, by_triangle: NDArray[np.float64]
+) -> NDArray[np.bool_]:
     """(m,) which triangles lie farther from the surface than their face allows."""
     chord = tolerances.at(tolerances.chord, mesh.face_ids)
-    return fit.by_triangle > chord * (1.0 + CHORD_SLACK)
+    return by_triangle > chord * (1.0 + CHORD_SLACK)
 
 
 def exceeds_angle(tolerances: Tolerances, dihedrals: DihedralAngles) -> NDArray[np.bool_]:
@@ -154,27 +162,44 @@ class _Excess(NamedTuple):
     reached: NDArray[np.float64]  # (k,)
     asked: NDArray[np.float64]  # (k,)
     size: NDArray[np.float64]  # (k,) target size there; infinite: not known
-    factor: NDArray[np.float64]  # (k,) of it, that would keep to the tolerance
+    factor: NDArray[np.float64]  # (k,) of it, that would keep to the tolerance and be asked for
+    longest: NDArray[np.float64]  # (k,) sides of the triangles
     points: NDArray[np.float64]  # (k, 3)
     by_face: NDArray[np.integer[Any]]  # (f,) how many triangles or edges there are in all
     total: int
 
 
-def chord_check(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> ToleranceCheck:
-    """Of the deviation, which grows with the square of the size."""
-    far = np.flatnonzero(exceeds_chord(tolerances, mesh, fit))
+def chord_check(
+    tolerances: Tolerances, mesh: SurfaceMesh, by_triangle: NDArray[np.float64]
+) -> ToleranceCheck:
+    """Of the deviation (m,), which grows with the square of the size."""
+    chord = tolerances.at(tolerances.chord, mesh.face_ids)
+    far = np.flatnonzero(exceeds_chord(tolerances, mesh, by_triangle))
     if not len(far):
         return ToleranceCheck(None, ())
-    faces, reached = mesh.face_ids[far], fit.by_triangle[far]
-    chord = tolerances.at(tolerances.chord, faces)
-    with np.errstate(invalid="ignore"):
-        factor = np.sqrt(chord / reached)
-    size, points = _sizes(mesh, mesh.triangles[far]), mesh.points[mesh.triangles[far]].mean(axis=1)
+    points = mesh.points[mesh.triangles[far]].mean(axis=1)
     by_face = np.bincount(np.maximum(mesh.face_ids, 0))
     excess = _Excess(
-        "chord", far, faces, reached, chord, size, factor, points, by_face, len(mesh.triangles)
-    )
+        "chord", far, mesh.face_ids[far], by_triangle[far], chord[far],
+        *_chord_sizes(mesh, far, by_triangle[far], chord[far]), points, by_face,
+        len(mesh.triangles),
+    )  # fmt: skip
     return _split(tolerances, mesh, excess)
+
+
+def chord_forbidden(
+    tolerances: Tolerances, mesh: SurfaceMesh, by_triangle: NDArray[np.float64]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """(m,) at which triangles ``min_size`` leaves no room for smaller sizes; and which of them lie
+    beyond the chord of their face, seen that they deviate by so much (m,)."""
+    least = tolerances.at(tolerances.min_size, mesh.face_ids)
+    if not least.any():
+        none = np.zeros(len(by_triangle), bool)
+        return none, none
+    chord = tolerances.at(tolerances.chord, mesh.face_ids)
+    sizes = _chord_sizes(mesh, np.arange(len(by_triangle)), chord, chord)
+    bound = np.isfinite(chord) & _forbidden(mesh, least, *sizes)
+    return bound, bound & exceeds_chord(tolerances, mesh, by_triangle)
 
 
 def angle_check(
@@ -188,11 +213,29 @@ def angle_check(
     angle = tolerances.at(tolerances.angle, faces)
     ends = mesh.edges[dihedrals.edges[far]]
     size, points = _sizes(mesh, ends), mesh.points[ends].mean(axis=1)
-    total = int(dihedrals.number.sum())
+    beside = mesh.connectivity.half_edges[dihedrals.edges[far]] // 3
+    longest = np.maximum(*(_longest(mesh, triangles) for triangles in beside.T))
+    by_face, total = dihedrals.number, int(dihedrals.number.sum())
+    factor = np.minimum(angle / reached, ANGLE_STEP)
     excess = _Excess(
-        "angle", far, faces, reached, angle, size, angle / reached, points, dihedrals.number, total
+        "angle", far, faces, reached, angle, size, factor, longest, points, by_face, total
     )
     return _split(tolerances, mesh, excess)
+
+
+def _chord_sizes(
+    mesh: SurfaceMesh, triangles: Rows, deviation: NDArray, chord: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Target sizes (k,), their factors (k,) that would keep to the chord, longest sides (k,)."""
+    with np.errstate(invalid="ignore"):
+        factor = np.minimum(np.sqrt(chord / deviation), CHORD_STEP)
+    return _sizes(mesh, mesh.triangles[triangles]), factor, _longest(mesh, triangles)
+
+
+def _longest(mesh: SurfaceMesh, triangles: Rows) -> NDArray[np.float64]:
+    """(k,) longest sides of triangles."""
+    corners = mesh.points[mesh.triangles[triangles]]
+    return np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
 
 
 def _sizes(mesh: SurfaceMesh, corners: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -202,10 +245,19 @@ def _sizes(mesh: SurfaceMesh, corners: NDArray[np.int32]) -> NDArray[np.float64]
     return mesh.sizes[corners].mean(axis=1)
 
 
+def _forbidden(
+    mesh: SurfaceMesh, least: NDArray, size: NDArray, factor: NDArray, longest: NDArray
+) -> NDArray[np.bool_]:
+    """(k,) does ``least`` forbid the factor on the size? Not where triangles are much larger than
+    that: they are far for another reason."""
+    ratio = np.inf if mesh.sizing is None else mesh.sizing.anisotropy or 1.0
+    return (size * factor < least) & (longest <= WELL_ABOVE * ratio * least)
+
+
 def _split(tolerances: Tolerances, mesh: SurfaceMesh, excess: _Excess) -> ToleranceCheck:
     """Those that smaller triangles would mend, and those where ``min_size`` forbids them."""
     least = tolerances.at(tolerances.min_size, excess.faces)
-    forbidden = excess.size * np.minimum(excess.factor, WORTH_ASKING) < least
+    forbidden = _forbidden(mesh, least, excess.size, excess.factor, excess.longest)
     violation = None
     free = np.flatnonzero(~forbidden)
     if len(free):

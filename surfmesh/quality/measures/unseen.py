@@ -32,7 +32,7 @@ from surfmesh.quality.measures.hidden_search import (
 )
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import Point, as_point, as_uv
-from surfmesh.quality.measures.tolerances import Tolerances
+from surfmesh.quality.measures.tolerances import Tolerances, chord_forbidden
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -48,6 +48,9 @@ FOLLOWED = 0.5
 
 RIM_SLACK = 2.0
 """Of what three samples of a rim's segment have seen."""
+
+AS_FAR = 2.0
+"""Times the largest deviation that samples have seen where ``min_size`` forbids the chord."""
 
 NEAREST = 3
 """Vertices whose triangles are looked at, beside a point's own and its neighbours."""
@@ -71,7 +74,7 @@ class UnseenPlace:
     deviation: float  # how far it lies, or may lie, from the mesh; infinite: no bound at all
 
 
-class Unseen(NamedTuple):
+class UnseenCounts(NamedTuple):
     """What was found, and what cannot be excluded."""
 
     found: int  # triangles and segments of rims
@@ -79,6 +82,16 @@ class Unseen(NamedTuple):
     largest: float  # deviation of what was found
     possible: float  # largest that cannot be excluded
     places: tuple[UnseenPlace, ...]  # what was found first, the largest first
+
+
+class Unseen(NamedTuple):
+    """All of it, and what is left of it where a ``min_size`` of the user's forbids the triangles
+    that would show it: that is a limit as any other."""
+
+    total: UnseenCounts
+    faults: UnseenCounts
+    forbidden: Rows  # (k,) triangles where it does
+    heights: NDArray[np.float64]  # (k,) how far the surface lies, or may lie, from them
 
 
 def unseen(
@@ -108,12 +121,34 @@ def unseen(
     possible[reached > 0.0] = 0.0
     bad = np.flatnonzero((reached > 0.0) | (possible > 0.0))
     bad = bad[np.lexsort((-possible[bad], -reached[bad]))]
-    return Unseen(
-        int(np.count_nonzero(reached)), int(np.count_nonzero(possible)),
-        float(reached.max(initial=0.0)), float(possible.max(initial=0.0)),
-        tuple(_place(mesh, int(triangle[k]), place[k], reached[k], possible[k])
-              for k in bad[:listed]),
-    )  # fmt: skip
+    triangle, reached, possible, place = (x[bad] for x in (triangle, reached, possible, place))
+    height = np.maximum(reached, possible)
+    held = np.zeros(len(bad), bool)
+    if len(bad) and tolerances.min_size.any():
+        held = _held(mesh, fit, tolerances, triangle, height)
+
+    def counts(rows: NDArray[np.intp]) -> UnseenCounts:
+        return UnseenCounts(
+            int(np.count_nonzero(reached[rows])), int(np.count_nonzero(possible[rows])),
+            float(reached[rows].max(initial=0.0)), float(possible[rows].max(initial=0.0)),
+            tuple(_place(mesh, int(triangle[k]), place[k], reached[k], possible[k])
+                  for k in rows[:listed]),
+        )  # fmt: skip
+
+    total = counts(np.arange(len(bad)))
+    faults = counts(np.flatnonzero(~held)) if held.any() else total
+    return Unseen(total, faults, triangle[held], height[held])
+
+
+def _held(
+    mesh: SurfaceMesh, fit: Deviation, tolerances: Tolerances, triangles: Rows, height: NDArray
+) -> NDArray[np.bool_]:
+    """(k,) does ``min_size`` explain what hides in triangles? Where it bounds sizes, and others on
+    the face are seen to be as far, more or less, because of it: a needle on a plane is none."""
+    bound, beyond = chord_forbidden(tolerances, mesh, fit.by_triangle)
+    largest = np.zeros(max(int(mesh.face_ids.max(initial=0)) + 1, 1))
+    np.maximum.at(largest, mesh.face_ids[beyond], fit.by_triangle[beyond])
+    return bound[triangles] & (height <= AS_FAR * largest[mesh.face_ids[triangles]])
 
 
 def _place(

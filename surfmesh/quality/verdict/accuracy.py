@@ -282,9 +282,9 @@ def angle_exceeded(measured: Measurements) -> Iterator[Problem]:
 
 def features_unseen(measured: Measurements) -> Iterator[Problem]:
     """What was found between the samples, and what cannot be excluded there."""
-    seen = measured.unseen
-    if seen is None:
+    if measured.unseen is None:
         return
+    seen = measured.unseen.faults
     found = next((place for place in seen.places if place.found), None)
     possible = next((place for place in seen.places if not place.found), None)
     if seen.found and found is not None:

@@ -48,7 +48,7 @@ class SolidsOverlap(Problem):
     def text(self) -> str:
         """How many, and which do so most."""
         depth = self.deepest.depth
-        lie = f" by up to {depth:.3g}" if depth else ", one within the other"
+        lie = f" by at least {depth:.3g}" if depth else ", one within the other"
         return (
             f"{count_in_words(self.count, 'pair')} of solids overlap: "
             f"{' and '.join(self.deepest.names)}{lie}, at {place_in_words(self.deepest.point)}; "

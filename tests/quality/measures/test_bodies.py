@@ -113,6 +113,22 @@ def test_bodies_of_any_scale(scale):
         assert [pair.kind for pair in report.bodies] == kinds
 
 
+@pytest.mark.parametrize("size", [0.7, 0.2])
+@pytest.mark.parametrize("common", [0.1, 1.0, 1.5])
+def test_depth_of_an_overlap_is_of_the_bodies_and_not_of_their_triangles(common, size):
+    cubes = [box(2, 2, 2), box(2, 2, 2, at=3 * (2 - common,))]
+    report = sm.mesh(sm.from_cadquery(cubes), size).report
+    depth = min(common, 2 - common)  # of a corner, to the nearest face of the other
+    assert report.bodies[0].depth == pytest.approx(depth, rel=1e-6)
+    assert f"by at least {depth:.3g}, at" in report.problems[0]
+
+
+def test_depth_of_balls_in_each_other():
+    balls = [cq.Workplane().sphere(2).val().translate((x, 0, 0)) for x in (0, 2.5)]
+    report = sm.mesh(sm.from_cadquery(balls), CHORD).report
+    assert report.bodies[0].depth == pytest.approx(1.5, abs=0.1)
+
+
 def test_names_of_an_assembly():
     both = cq.Assembly().add(cq.Workplane().box(4, 4, 4), name="one")
     both.add(cq.Workplane().box(4, 4, 4).translate((2.137, 1.091, 0.873)), name="two")

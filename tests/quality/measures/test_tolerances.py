@@ -132,3 +132,49 @@ def test_sizes_that_min_size_leaves_no_room_below_are_a_limit_and_no_fault(least
     """Sizes a little above ``min_size`` are not asked to be smaller: rounds make no request."""
     report = sm.check(sm.mesh("sphere", min_size=least))
     assert report.clean and len(report.limits) == 1
+
+
+def oval_tube():
+    """A face whose curvature changes along it: some sizes lie a little above any ``min_size``."""
+    path = cq.Workplane("XZ").spline([(0, 0), (8, 20), (30, 30)])
+    return sm.from_cadquery(cq.Workplane().ellipse(3, 1.6).sweep(path))
+
+
+@pytest.mark.parametrize("anisotropy", [1.0, 6.0])
+@pytest.mark.parametrize("least", [0.7, 0.9, 1.0, 1.1, 1.4])
+def test_sizes_between_the_chord_and_min_size_are_a_limit_and_no_fault(least, anisotropy):
+    sizing = sm.Sizing(chord=0.06, min_size=least, anisotropy=anisotropy)
+    report = sm.check(sm.mesh(oval_tube(), sizing))
+    assert report.clean, report.problems
+    assert report.limits and all(limit.min_size == least for limit in report.limits)
+
+
+def test_triangles_much_larger_than_min_size_are_a_fault_whatever_their_sizes_say():
+    torus = sm.mesh(sm.load("torus"), sm.Sizing(size=0.5))
+    asked = torus.sizing.replaced(size=None, chord=0.001, min_size=0.45)
+    stated = replace(torus, sizing=asked)
+    assert sm.check(stated).clean and sm.check(stated).limits
+    claimed = np.full(len(torus.points), 0.1)
+    coarse = replace(torus, sizing=asked.replaced(min_size=0.1), sizes=claimed)
+    report = sm.check(coarse)
+    assert not report.clean and not report.limits
+
+
+def waves(**asked):
+    surface = sm.ParametricSurface("u", "v", "0.3*cos(4*u)*sin(3*v)", u=(-2, 2), v=(-2, 2))
+    return sm.mesh(surface, sm.Sizing(chord=0.005, **asked))
+
+
+@pytest.mark.parametrize("least", [0.25, 0.4, 0.8, 1.5])
+def test_waves_that_triangles_of_min_size_cannot_follow_are_a_limit(least):
+    """Between the samples of triangles too large for it hides as much as they have seen."""
+    report = waves(min_size=least).report
+    assert report.clean, report.problems
+    (limit,) = report.limits
+    assert limit.reached >= max(report.deviation_max, report.unseen_max)
+
+
+def test_no_rounds_are_made_for_sizes_that_min_size_forbids(caplog):
+    with caplog.at_level("INFO", logger="surfmesh"):
+        waves(min_size=0.2)
+    assert sum(line.startswith("packing") for line in caplog.messages) <= 2
