@@ -154,8 +154,8 @@ def test_triangles_much_larger_than_min_size_are_a_fault_whatever_their_sizes_sa
     asked = torus.sizing.replaced(size=None, chord=0.001, min_size=0.45)
     stated = replace(torus, sizing=asked)
     assert sm.check(stated).clean and sm.check(stated).limits
-    claimed = np.full(len(torus.points), 0.1)
-    coarse = replace(torus, sizing=asked.replaced(min_size=0.1), sizes=claimed)
+    claimed = np.full(len(torus.points), 0.04)
+    coarse = replace(torus, sizing=asked.replaced(min_size=0.04), sizes=claimed)
     report = sm.check(coarse)
     assert not report.clean and not report.limits
 
