@@ -41,9 +41,15 @@ double estimate(const PatchState& state, Triangle k) {
     return triangle_deviation(state.frames, tri[3 * k], tri[3 * k + 1], tri[3 * k + 2]);
 }
 
+/// The size that triangles are held at, 0 for none. Stretched ones are not: turned and moved on they
+/// come two to three times nearer to the surface, whatever their size.
+double least_held(const PatchState& state) {
+    return state.is_anisotropic() ? 0.0 : state.asked().min_size;
+}
+
 /// Is a triangle with this deviation far because its size is not to be below ``min_size``?
 bool is_held_by_min_size(const PatchState& state, Triangle k, double deviation, double chord) {
-    const double least = state.asked().min_size;
+    const double least = least_held(state);
     if (!(least > 0.0 && deviation > chord)) return false;
     double size = 0.0;  // the largest that the field has at a corner
     for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
@@ -89,7 +95,7 @@ Array<Triangle> TrackedDeviations::suspects() const {
 }
 
 Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
-    if (state_.asked().min_size > 0.0) return measure_free(triangles);
+    if (least_held(state_) > 0.0) return measure_free(triangles);
     return measure_all(triangles);
 }
 
@@ -126,7 +132,7 @@ bool TrackedDeviations::is_held(Triangle k) const {
 
 Array<Triangle> TrackedDeviations::held() {
     Array<Triangle> found;
-    if (!(state_.asked().min_size > 0.0)) return found;
+    if (!(least_held(state_) > 0.0)) return found;
     const Array<Triangle> near = suspects();
     const Array<double> deviation = measure_all(near);
     for (std::size_t k = 0; k < near.size(); ++k)
