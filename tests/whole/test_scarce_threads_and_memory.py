@@ -21,8 +21,11 @@ for subject in (surface, box):  # what is imported when it is needed is there
 
 NO_THREADS = """
 if os.getuid() == 0:  # whom the limit does not bind
-    os.setgid(65534)
-    os.setuid(65534)
+    try:
+        os.setgid(65534)
+        os.setuid(65534)
+    except PermissionError:
+        raise SystemExit(print("bound to be root"))
 resource.setrlimit(resource.RLIMIT_NPROC, (2, 2))
 for subject, size in ((surface, 0.02), (box, 0.1)):
     made = {surfmesh.mesh(subject, size, jobs=jobs).points.tobytes() for jobs in (1, 4)}
@@ -49,7 +52,10 @@ def run(code: str) -> str:
 
 
 def test_fewer_threads_where_the_system_gives_no_more():
-    assert run(NO_THREADS).split() == ["True", "True"]
+    said = run(NO_THREADS)
+    if said.startswith("bound"):
+        pytest.skip("this root may not become another user, and limits do not bind it")
+    assert said.split() == ["True", "True"]
 
 
 def test_memory_that_runs_out_in_a_thread_is_an_error():
